@@ -18,7 +18,7 @@ set(max_lines 550)
 set(max_types 7)
 set(max_parameters 6)
 set(more_parameters
-	charts/pack.cpp math/cholmod_blas.cpp) # BLAS
+	charts/pack.cpp numerics/cholmod_blas.cpp) # BLAS
 # The drivers choose by the options of the filters; the headers of the stages take what they need.
 set(naming_options charts/pack.h)
 set(host_words "MeshLab|PyMeshLab|meshlabserver|Qt[A-Z]|vcg::")

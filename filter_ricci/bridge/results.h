@@ -4,7 +4,7 @@
 
 #include "bridge.h"
 
-#include <ricci/charts/parametrization.h>
+#include <ricci/layout/parametrization.h>
 #include <ricci/sphere_map.h>
 
 #include <string>

@@ -5,7 +5,7 @@
 
 #include "bridge.h"
 
-#include <ricci/charts/parametrization.h>
+#include <ricci/layout/parametrization.h>
 
 #include <QSaveFile>
 

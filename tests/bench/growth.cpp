@@ -10,7 +10,7 @@
 #include <ricci/base/task.h>
 #include <ricci/parametrize.h>
 #include <ricci/progress.h>
-#include <ricci/surface/sides.h>
+#include <ricci/mesh/sides.h>
 
 #include <array>
 #include <cmath>

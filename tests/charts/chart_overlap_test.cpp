@@ -5,7 +5,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/math/orientation.h>
+#include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>
 

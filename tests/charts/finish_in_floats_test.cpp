@@ -5,7 +5,7 @@
 #include <ricci/base/floating_point.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
-#include <ricci/math/orientation.h>
+#include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>
 

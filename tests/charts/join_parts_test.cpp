@@ -10,7 +10,7 @@
 #include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
-#include <ricci/math/orientation.h>
+#include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <ricci/cut/cut_graph.h>
 #include <ricci/error.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <ricci/cut/shorten_cut.h>
 #include <ricci/error.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/math/disjoint_sets.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/base/disjoint_sets.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <gtest/gtest.h>
 

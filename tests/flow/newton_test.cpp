@@ -7,7 +7,7 @@
 
 #include <ricci/base/tolerances.h>
 #include <ricci/flow/newton.h>
-#include <ricci/surface/flow_domain.h>
+#include <ricci/mesh/flow_domain.h>
 
 #include <gtest/gtest.h>
 

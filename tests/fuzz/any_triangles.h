@@ -4,7 +4,7 @@
 
 #include "byte_source.h"
 
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 namespace ricci::testing {
 

@@ -5,7 +5,7 @@
 #include "byte_source.h"
 
 #include <ricci/options.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 
 #include <ricci/layout/flat_mesh.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/surface/sides.h>
+#include <ricci/mesh/sides.h>
 
 #include <gtest/gtest.h>
 

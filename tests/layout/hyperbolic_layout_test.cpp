@@ -7,7 +7,7 @@
 #include "support/shapes.h"
 #include "support/wide.h"
 
-#include <ricci/layout/common_refinement.h>
+#include <ricci/refinement/common_refinement.h>
 #include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/conformal_flip.h>

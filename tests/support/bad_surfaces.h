@@ -6,7 +6,7 @@
 #include "shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <algorithm>
 #include <array>

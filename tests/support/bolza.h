@@ -4,7 +4,7 @@
 
 #include <ricci/cut/cut_graph.h>
 #include <ricci/metric/circle_packing.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <complex>
 #include <functional>

@@ -2,7 +2,7 @@
 #ifndef RICCI_TESTS_COMPLEX_H
 #define RICCI_TESTS_COMPLEX_H
 
-#include <ricci/math/points.h>
+#include <ricci/base/points.h>
 
 #include <complex>
 

@@ -3,9 +3,9 @@
 
 #include "shapes.h"
 
-#include <ricci/math/box_tree.h>
-#include <ricci/math/disjoint_sets.h>
-#include <ricci/surface/sides.h>
+#include <ricci/base/box_tree.h>
+#include <ricci/base/disjoint_sets.h>
+#include <ricci/mesh/sides.h>
 
 #include <algorithm>
 #include <cmath>

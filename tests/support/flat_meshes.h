@@ -5,7 +5,7 @@
 #include "shapes.h"
 
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/charts/parametrization.h>
+#include <ricci/layout/parametrization.h>
 #include <ricci/layout/flat_mesh.h>
 #include <ricci/measure/distortion.h>
 

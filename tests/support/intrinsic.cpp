@@ -4,7 +4,7 @@
 #include "shapes.h"
 
 #include <algorithm>
-#include <ricci/surface/flow_domain.h>
+#include <ricci/mesh/flow_domain.h>
 
 #include <array>
 #include <cmath>

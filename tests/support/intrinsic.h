@@ -5,10 +5,10 @@
 #include "random.h"
 
 #include <ricci/metric/circle_packing.h>
-#include <ricci/surface/component.h>
-#include <ricci/surface/opened_mesh.h>
-#include <ricci/surface/surface_mesh.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/mesh/component.h>
+#include <ricci/mesh/opened_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #ifndef RICCI_TESTS_MESH_FILE_H
 #define RICCI_TESTS_MESH_FILE_H
 
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <string>
 

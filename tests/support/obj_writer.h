@@ -3,7 +3,7 @@
 #define RICCI_TESTS_OBJ_WRITER_H
 
 #include <ricci/layout/planar_layout.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <array>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "shapes.h"
 
-#include <ricci/pipeline/whole_map.h>
+#include <ricci/whole_map.h>
 
 #include <utility>
 

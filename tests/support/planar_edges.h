@@ -2,9 +2,9 @@
 #ifndef RICCI_TESTS_PLANAR_EDGES_H
 #define RICCI_TESTS_PLANAR_EDGES_H
 
-#include <ricci/math/orientation.h>
-#include <ricci/surface/surface_mesh.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/base/orientation.h>
+#include <ricci/mesh/surface_mesh.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <array>
 

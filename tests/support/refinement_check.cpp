@@ -4,9 +4,9 @@
 #include "complex.h"
 #include "shapes.h"
 
-#include <ricci/math/orientation.h>
+#include <ricci/base/orientation.h>
 #include <ricci/measure/distortion.h>
-#include <ricci/surface/triangulation.h>
+#include <ricci/mesh/triangulation.h>
 
 #include <algorithm>
 #include <cmath>

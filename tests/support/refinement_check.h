@@ -3,7 +3,7 @@
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
 #include <ricci/layout/flat_mesh.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <gtest/gtest.h>
 

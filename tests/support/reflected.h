@@ -7,8 +7,8 @@
 #include "shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/math/disjoint_sets.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/base/disjoint_sets.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <cmath>
 #include <functional>

@@ -4,7 +4,7 @@
 
 #include <ricci/base/indexed.h>
 #include <ricci/base/numbers.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <array>
 #include <functional>

@@ -4,7 +4,7 @@
 
 #include "random.h"
 
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <array>
 #include <vector>

@@ -2,8 +2,8 @@
 #ifndef RICCI_TESTS_VCG_MESH_H
 #define RICCI_TESTS_VCG_MESH_H
 
-#include <ricci/charts/parametrization.h>
-#include <ricci/surface/surface_mesh.h>
+#include <ricci/layout/parametrization.h>
+#include <ricci/mesh/surface_mesh.h>
 
 #include <vcg/complex/complex.h>
 

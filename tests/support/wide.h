@@ -2,7 +2,7 @@
 #ifndef RICCI_TEST_WIDE_H
 #define RICCI_TEST_WIDE_H
 
-#include "ricci/math/double_double.h"
+#include "ricci/numerics/double_double.h"
 
 #include <complex>
 #include <limits>

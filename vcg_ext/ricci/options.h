@@ -2,7 +2,7 @@
 #ifndef RICCI_OPTIONS_H
 #define RICCI_OPTIONS_H
 
-#include "math/points.h"
+#include "base/points.h"
 
 #include <functional>
 #include <vector>

@@ -2,10 +2,10 @@
 #ifndef RICCI_PARAMETRIZE_H
 #define RICCI_PARAMETRIZE_H
 
-#include "charts/parametrization.h"
+#include "layout/parametrization.h"
 #include "options.h"
 #include "progress.h"
-#include "surface/surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "options.h"
 #include "progress.h"
-#include "surface/surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #include "chart_division.h"
 
 #include "../base/task.h"
-#include "../math/adjacency.h"
-#include "../math/min_cut.h"
+#include "../base/adjacency.h"
+#include "../numerics/min_cut.h"
 #include "connected_pieces.h"
 
 #include <algorithm>

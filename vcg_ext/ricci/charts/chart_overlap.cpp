@@ -3,8 +3,8 @@
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../math/convex_hull.h"
-#include "../math/orientation.h"
+#include "../base/convex_hull.h"
+#include "../base/orientation.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 
 #include "../base/indexed.h"
 #include "../layout/flat_mesh.h"
-#include "../math/box_tree.h"
-#include "../math/points.h"
+#include "../base/box_tree.h"
+#include "../base/points.h"
 
 #include <array>
 #include <cstdint>

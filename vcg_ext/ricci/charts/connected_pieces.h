@@ -3,7 +3,7 @@
 #define RICCI_CONNECTED_PIECES_H
 
 #include "../base/indexed.h"
-#include "../math/disjoint_sets.h"
+#include "../base/disjoint_sets.h"
 
 #include <cstddef>
 #include <functional>

@@ -5,10 +5,10 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../finish/cover_repair.h"
-#include "../finish/repair.h"
+#include "../optimize/cover_repair.h"
+#include "../optimize/repair.h"
 #include "chart_overlap.h"
-#include "divide_disks.h"
+#include "../hyperbolic/divide_disks.h"
 #include "separate_charts.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef RICCI_FINISH_IN_FLOATS_H
 #define RICCI_FINISH_IN_FLOATS_H
 
-#include "parametrization.h"
+#include "../layout/parametrization.h"
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 #include "movable_parts.h"
 
 #include "../base/tolerances.h"
-#include "../math/orientation.h"
+#include "../base/orientation.h"
 #include "../metric/area.h"
 
 #include <map>

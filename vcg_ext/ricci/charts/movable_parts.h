@@ -3,7 +3,7 @@
 #define RICCI_MOVABLE_PARTS_H
 
 #include "../layout/flat_mesh.h"
-#include "../math/box_tree.h"
+#include "../base/box_tree.h"
 #include "chart_overlap.h"
 
 #include <array>

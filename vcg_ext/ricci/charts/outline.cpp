@@ -2,7 +2,7 @@
 #include "outline.h"
 
 #include "../base/task.h"
-#include "../math/box_tree.h"
+#include "../base/box_tree.h"
 
 #include <algorithm>
 #include <cstddef>

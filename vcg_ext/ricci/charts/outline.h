@@ -3,7 +3,7 @@
 #define RICCI_OUTLINE_H
 
 #include "../layout/flat_mesh.h"
-#include "../math/points.h"
+#include "../base/points.h"
 
 #include <array>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../math/convex_hull.h"
+#include "../base/convex_hull.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/convex_hull.h"
+#include "../base/convex_hull.h"
 #include "separate_charts.h"
 
 #include <algorithm>

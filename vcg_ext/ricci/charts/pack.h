@@ -5,7 +5,7 @@
 
 #include "../options.h"
 #include "outline_packing.h"
-#include "parametrization.h"
+#include "../layout/parametrization.h"
 
 #include <cstddef>
 #include <vector>

@@ -2,9 +2,9 @@
 #include "separate_charts.h"
 
 #include "../base/task.h"
-#include "../math/convex_hull.h"
-#include "../math/disjoint_sets.h"
-#include "../math/orientation.h"
+#include "../base/convex_hull.h"
+#include "../base/disjoint_sets.h"
+#include "../base/orientation.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"

@@ -2,7 +2,7 @@
 #ifndef RICCI_SEPARATE_CHARTS_H
 #define RICCI_SEPARATE_CHARTS_H
 
-#include "parametrization.h"
+#include "../layout/parametrization.h"
 
 #include <optional>
 #include <vector>

@@ -2,10 +2,10 @@
 #include "cut_graph.h"
 
 #include "../error.h"
-#include "../math/adjacency.h"
-#include "../math/disjoint_sets.h"
-#include "../math/shortest_paths.h"
-#include "../surface/triangulation.h"
+#include "../base/adjacency.h"
+#include "../base/disjoint_sets.h"
+#include "../base/shortest_paths.h"
+#include "../mesh/triangulation.h"
 #include "shorten_cut.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef RICCI_CUT_GRAPH_H
 #define RICCI_CUT_GRAPH_H
 
-#include "../surface/triangulation.h"
+#include "../mesh/triangulation.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/sparse_cholesky.h"
+#include "../numerics/sparse_cholesky.h"
 #include "../metric/laplacian.h"
 
 #include <Eigen/Dense>

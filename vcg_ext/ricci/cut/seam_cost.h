@@ -2,8 +2,8 @@
 #ifndef RICCI_SEAM_COST_H
 #define RICCI_SEAM_COST_H
 
-#include "../math/points.h"
-#include "../surface/triangulation.h"
+#include "../base/points.h"
+#include "../mesh/triangulation.h"
 
 namespace ricci {
 

@@ -2,7 +2,7 @@
 #include "shorten_cut.h"
 
 #include "../base/task.h"
-#include "../math/shortest_paths.h"
+#include "../base/shortest_paths.h"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 #ifndef RICCI_SHORTEN_CUT_H
 #define RICCI_SHORTEN_CUT_H
 
-#include "../surface/triangulation.h"
+#include "../mesh/triangulation.h"
 
 namespace ricci {
 

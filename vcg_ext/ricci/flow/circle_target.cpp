@@ -4,7 +4,7 @@
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/anderson_mixing.h"
+#include "../numerics/anderson_mixing.h"
 
 #include <algorithm>
 #include <cmath>

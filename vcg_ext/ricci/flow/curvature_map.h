@@ -4,7 +4,7 @@
 
 #include "../metric/circle_packing.h"
 #include "../metric/conformal_flip.h"
-#include "../surface/elements.h"
+#include "../mesh/elements.h"
 
 #include <memory>
 #include <vector>

@@ -5,8 +5,8 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
-#include "../surface/flow_domain.h"
-#include "../surface/normal_coordinates.h"
+#include "../mesh/flow_domain.h"
+#include "../mesh/normal_coordinates.h"
 #include "circle_target.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/adjacency.h"
+#include "../base/adjacency.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef RICCI_HESSIAN_H
 #define RICCI_HESSIAN_H
 
-#include "../math/sparse_cholesky.h"
+#include "../numerics/sparse_cholesky.h"
 #include "curvature_map.h"
 
 #include <Eigen/SparseCore>

@@ -4,7 +4,7 @@
 
 #include "../metric/circle_packing.h"
 #include "../options.h"
-#include "../surface/flow_domain.h"
+#include "../mesh/flow_domain.h"
 #include "newton.h"
 #include "target.h"
 

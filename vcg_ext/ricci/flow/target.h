@@ -6,7 +6,7 @@
 #include "../base/numbers.h"
 #include "../options.h"
 #include "../report.h"
-#include "../surface/elements.h"
+#include "../mesh/elements.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 
 #include "../base/memory_estimate.h"
 #include "../base/task.h"
-#include "../math/disjoint_sets.h"
-#include "../surface/normal_coordinates.h"
+#include "../base/disjoint_sets.h"
+#include "../mesh/normal_coordinates.h"
 #include "end_sheets.h"
 
 #include <vector>

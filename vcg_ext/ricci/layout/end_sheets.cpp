@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "end_sheets.h"
 
-#include "../math/disjoint_sets.h"
+#include "../base/disjoint_sets.h"
 
 #include <tuple>
 #include <utility>

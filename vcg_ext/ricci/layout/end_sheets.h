@@ -2,7 +2,7 @@
 #ifndef RICCI_END_SHEETS_H
 #define RICCI_END_SHEETS_H
 
-#include "../overlay/overlay_pieces.h"
+#include "../refinement/overlay_pieces.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"
 

@@ -3,7 +3,7 @@
 
 #include "../base/tolerances.h"
 #include "../metric/area.h"
-#include "../surface/sides.h"
+#include "../mesh/sides.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,9 +3,9 @@
 #define RICCI_FLAT_MESH_H
 
 #include "../base/indexed.h"
-#include "../math/disjoint_sets.h"
-#include "../math/points.h"
-#include "../surface/surface_mesh.h"
+#include "../base/disjoint_sets.h"
+#include "../base/points.h"
+#include "../mesh/surface_mesh.h"
 
 #include <array>
 #include <cstddef>

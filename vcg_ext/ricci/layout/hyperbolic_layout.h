@@ -2,8 +2,8 @@
 #ifndef RICCI_HYPERBOLIC_LAYOUT_H
 #define RICCI_HYPERBOLIC_LAYOUT_H
 
-#include "../math/disk_isometry.h"
-#include "../surface/triangulation.h"
+#include "../numerics/disk_isometry.h"
+#include "../mesh/triangulation.h"
 #include "flat_mesh.h"
 
 #include <complex>

@@ -3,7 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
-#include "../math/shortest_paths.h"
+#include "../base/shortest_paths.h"
 
 #include <algorithm>
 #include <cmath>

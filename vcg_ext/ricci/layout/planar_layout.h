@@ -2,9 +2,9 @@
 #ifndef RICCI_PLANAR_LAYOUT_H
 #define RICCI_PLANAR_LAYOUT_H
 
-#include "../math/points.h"
-#include "../surface/flow_domain.h"
-#include "../surface/triangulation.h"
+#include "../base/points.h"
+#include "../mesh/flow_domain.h"
+#include "../mesh/triangulation.h"
 #include "flat_mesh.h"
 
 #include <vector>

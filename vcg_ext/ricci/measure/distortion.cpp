@@ -6,8 +6,8 @@
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
-#include "../math/disk_isometry.h"
-#include "../math/orientation.h"
+#include "../numerics/disk_isometry.h"
+#include "../base/orientation.h"
 #include "../metric/area.h"
 
 #include <algorithm>

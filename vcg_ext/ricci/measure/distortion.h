@@ -4,9 +4,9 @@
 
 #include "../flow/target.h"
 #include "../layout/flat_mesh.h"
-#include "../math/points.h"
+#include "../base/points.h"
 #include "../report.h"
-#include "../surface/surface_mesh.h"
+#include "../mesh/surface_mesh.h"
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
-#include "../math/points.h"
+#include "../base/points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/sparse_cholesky.h"
+#include "../numerics/sparse_cholesky.h"
 #include "../metric/laplacian.h"
-#include "../seamless/holonomy.h"
+#include "../cones/holonomy.h"
 #include "invariants.h"
 
 #include <Eigen/Cholesky>

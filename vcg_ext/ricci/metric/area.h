@@ -2,7 +2,7 @@
 #ifndef RICCI_AREA_H
 #define RICCI_AREA_H
 
-#include "../surface/triangulation.h"
+#include "../mesh/triangulation.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../math/disjoint_sets.h"
+#include "../base/disjoint_sets.h"
 #include "area.h"
 #include "conformal_flip.h"
 #include "euclidean.h"

@@ -2,7 +2,7 @@
 #ifndef RICCI_CIRCLE_PACKING_H
 #define RICCI_CIRCLE_PACKING_H
 
-#include "../surface/triangulation.h"
+#include "../mesh/triangulation.h"
 
 #include <memory>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "../base/task.h"
 #include "../error.h"
-#include "../surface/triangulation.h"
+#include "../mesh/triangulation.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #ifndef RICCI_LAPLACIAN_H
 #define RICCI_LAPLACIAN_H
 
-#include "../surface/elements.h"
-#include "../surface/triangulation.h"
+#include "../mesh/elements.h"
+#include "../mesh/triangulation.h"
 
 #include <Eigen/SparseCore>
 

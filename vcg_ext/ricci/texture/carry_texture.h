@@ -3,8 +3,8 @@
 #ifndef RICCI_CARRY_TEXTURE_H
 #define RICCI_CARRY_TEXTURE_H
 
-#include "../math/points.h"
-#include "../surface/surface_mesh.h"
+#include "../base/points.h"
+#include "../mesh/surface_mesh.h"
 #include "picture.h"
 
 #include <array>

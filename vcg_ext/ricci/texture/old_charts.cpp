@@ -2,8 +2,8 @@
 #include "old_charts.h"
 
 #include "../base/task.h"
-#include "../math/disjoint_sets.h"
-#include "../surface/sides.h"
+#include "../base/disjoint_sets.h"
+#include "../mesh/sides.h"
 
 #include <algorithm>
 #include <cmath>

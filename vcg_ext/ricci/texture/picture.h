@@ -2,7 +2,7 @@
 #ifndef RICCI_PICTURE_H
 #define RICCI_PICTURE_H
 
-#include "../math/points.h"
+#include "../base/points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,9 +10,9 @@
 
 #include <ricci/base/task.h>
 #include <ricci/error.h>
-#include <ricci/fuchsian/fuchsian_group.h>
-#include <ricci/fuchsian/tiling.h>
-#include <ricci/math/disk_isometry.h>
+#include <ricci/hyperbolic/fuchsian_group.h>
+#include <ricci/hyperbolic/tiling.h>
+#include <ricci/numerics/disk_isometry.h>
 #include <ricci/sphere_map.h>
 
 #include <vcg/complex/allocate.h>

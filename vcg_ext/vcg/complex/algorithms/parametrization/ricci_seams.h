@@ -6,7 +6,7 @@
 #ifndef __VCGLIB_RICCI_SEAMS
 #define __VCGLIB_RICCI_SEAMS
 
-#include <ricci/surface/sides.h>
+#include <ricci/mesh/sides.h>
 #include <ricci/texture/old_charts.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/base/box_tree.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// Boxes on a lattice, so that many of them touch, coincide, or have no width or height.
+std::vector<Box2> randomBoxes(int n, Random& random)
+{
+	std::vector<Box2> boxes;
+	for (int i = 0; i < n; ++i) {
+		Box2 box;
+		const int x = random.index(20), y = random.index(20);
+		box.add(Point2{x * 0.5, y * 0.5});
+		box.add(Point2{(x + random.index(4)) * 0.5, (y + random.index(4)) * 0.5});
+		boxes.push_back(box);
+	}
+	return boxes;
+}
+
+/// No node is left out.
+constexpr auto kEverywhere = [](int) { return false; };
+
+TEST(BoxTree, FindsEachPairOfBoxesThatMeetOnce)
+{
+	Random random(350);
+	for (int n : {0, 1, 2, 4, 5, 9, 40, 150, 400}) {
+		const std::vector<Box2> boxes = randomBoxes(n, random);
+		std::vector<std::array<int, 2>> expected, found;
+		for (int i = 0; i < n; ++i)
+			for (int j = i + 1; j < n; ++j) {
+				const Box2 &a = boxes[positionOf(i)], &b = boxes[positionOf(j)];
+				if (a.min[0] < b.max[0] && b.min[0] < a.max[0] && a.min[1] < b.max[1] &&
+					b.min[1] < a.max[1])
+					expected.push_back({i, j});
+			}
+		BoxTree(boxes).meetingPairs([&](int i, int j) {
+			found.push_back({std::min(i, j), std::max(i, j)});
+		});
+		std::sort(found.begin(), found.end());
+		EXPECT_EQ(found, expected);
+		EXPECT_EQ(expected.empty(), n < 40) << n;
+	}
+}
+
+TEST(BoxTree, FindsTheBoxesRoundAPoint)
+{
+	Random random(351);
+	for (int n : {0, 1, 5, 60, 300}) {
+		const std::vector<Box2> boxes = randomBoxes(n, random);
+		const BoxTree tree(boxes);
+		int count = 0;
+		for (int trial = 0; trial < 300; ++trial) {
+			const Point2 p = trial % 2 == 0 ? Point2{random.index(24) * 0.5, random.index(24) * 0.5}
+											: Point2{random.real(-1, 12), random.real(-1, 12)};
+			std::vector<int> expected, found;
+			for (int i = 0; i < n; ++i)
+				if (boxes[positionOf(i)].contains(p))
+					expected.push_back(i);
+			tree.boxesAround(
+				p, [&](int i) { found.push_back(i); }, kEverywhere);
+			std::sort(found.begin(), found.end());
+			EXPECT_EQ(found, expected);
+			count += static_cast<int>(expected.size());
+		}
+		EXPECT_GE(count, n > 5 ? n : 0);
+	}
+}
+
+TEST(BoxTree, OfManyEqualBoxes)
+{
+	// No direction divides them: the tree must do with their numbers.
+	Box2 box;
+	box.add(Point2{1.0, 2.0});
+	box.add(Point2{4.0, 3.0});
+	const BoxTree tree(std::vector<Box2>(100, box));
+	int pairs = 0;
+	tree.meetingPairs([&](int, int) { ++pairs; });
+	EXPECT_EQ(pairs, 100 * 99 / 2);
+	EXPECT_EQ(tree.extent(), 3.0);
+	EXPECT_EQ(BoxTree({}).extent(), 0.0);
+}
+
+/// Boxes of two colours: pairs of nodes of which each has only boxes of one, another for each.
+TEST(BoxTree, LeavesOutNodesThatAreApart)
+{
+	Random random(352);
+	const std::vector<Box2> boxes = randomBoxes(300, random);
+	const auto colour = [](int i) { return i % 7 == 0 ? 1 : 2; };
+	const BoxTree tree(boxes);
+	const Array<int> colours = tree.valuesOfNodes<int>(colour, [](int a, int b) { return a | b; });
+	EXPECT_EQ(colours[0], 3); // the root has both
+	std::vector<std::array<int, 2>> all, left;
+	int leftOut = 0;
+	const auto isOneOfEach = [&](int a, int b) { return (colours[a] & colours[b]) == 0; };
+	tree.meetingPairs([&](int i, int j) { all.push_back({i, j}); });
+	tree.meetingPairs(
+		[&](int i, int j) {
+			left.push_back({i, j});
+		},
+		[&](int a, int b) {
+			leftOut += isOneOfEach(a, b);
+			return isOneOfEach(a, b);
+		});
+	EXPECT_GT(leftOut, 0);
+	EXPECT_LT(left.size(), all.size());
+	const auto isOfOneColour = [&](const std::array<int, 2>& pair) {
+		return colour(pair[0]) == colour(pair[1]);
+	};
+	EXPECT_EQ(
+		std::count_if(left.begin(), left.end(), isOfOneColour),
+		std::count_if(all.begin(), all.end(), isOfOneColour));
+	int found = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		const Point2 p{random.real(0, 11), random.real(0, 11)};
+		std::vector<int> some, ones;
+		const auto keepOnes = [&](std::vector<int>& list) {
+			return [&](int i) {
+				if (colour(i) == 1)
+					list.push_back(i);
+			};
+		};
+		tree.boxesAround(p, keepOnes(ones), kEverywhere);
+		tree.boxesAround(p, keepOnes(some), [&](int node) { return colours[node] == 2; });
+		EXPECT_EQ(some, ones);
+		found += static_cast<int>(ones.size());
+	}
+	EXPECT_GT(found, 20);
+}
+
+} // namespace
+} // namespace ricci::testing

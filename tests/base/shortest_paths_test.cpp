@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/base/shortest_paths.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Links from one node to another, some of them parallel, some loops.
+struct Graph
+{
+	struct Link
+	{
+		int from, to;
+		double length;
+	};
+	int nodes;
+	Array<Link> links;
+
+	/// Lengths are small integers, so that many paths are equally long and sums are exact.
+	Graph(int nodeCount, int linkCount, Random& random) : nodes(nodeCount)
+	{
+		for (int i = 0; i < linkCount; ++i)
+			links.push_back(
+				{random.index(nodes), random.index(nodes), static_cast<double>(random.index(6))});
+	}
+
+	template<class Visit>
+	void neighbours(int node, const Visit& visit) const
+	{
+		for (const int i : links.indices())
+			if (links[i].from == node)
+				visit(links[i].to, links[i].length, i);
+	}
+
+	/// By relaxing all links until nothing changes.
+	Array<double> distances(const std::vector<int>& roots) const
+	{
+		Array<double> d(nodes, kFar);
+		for (int root : roots)
+			d[root] = 0.0;
+		for (int round = 0; round < nodes; ++round)
+			for (const Link& link : links)
+				d[link.to] = std::min(d[link.to], d[link.from] + link.length);
+		return d;
+	}
+};
+
+std::vector<int> someNodes(int count, int nodes, Random& random)
+{
+	std::vector<int> chosen;
+	for (int i = 0; i < count; ++i)
+		chosen.push_back(random.index(nodes));
+	return chosen;
+}
+
+TEST(ShortestPaths, AreThoseOfBellmanAndFord)
+{
+	Random random(320);
+	int unreached = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		const int n = 1 + random.index(25);
+		const Graph graph(n, random.index(4 * n), random);
+		const std::vector<int> roots = someNodes(1 + random.index(3), n, random);
+		const auto paths = shortestPaths<int, int>(
+			n, roots, [&](int node, const auto& visit) { graph.neighbours(node, visit); });
+		EXPECT_EQ(paths.distance, graph.distances(roots));
+		for (int node = 0; node < n; ++node) {
+			const bool isRoot = std::find(roots.begin(), roots.end(), node) != roots.end();
+			unreached += paths.distance[node] == kFar;
+			if (isRoot || paths.distance[node] == kFar) {
+				EXPECT_EQ(paths.parent[node], -1);
+				continue;
+			}
+			const Graph::Link& link = graph.links[paths.parent[node]];
+			EXPECT_EQ(link.to, node);
+			EXPECT_EQ(paths.distance[link.from] + link.length, paths.distance[node]);
+			int last = node; // the parents lead to a root
+			for (int steps = 0; paths.parent[last] >= 0 && steps <= n; ++steps)
+				last = graph.links[paths.parent[last]].from;
+			EXPECT_EQ(paths.distance[last], 0.0);
+			EXPECT_EQ(paths.parent[last], -1);
+		}
+	}
+	EXPECT_GT(unreached, 100);
+}
+
+TEST(SearchFront, GivesNodesByDistanceAndThenByNumberAndKeepsToItsBound)
+{
+	Random random(321);
+	SearchFront<int, int> front(40);
+	for (int trial = 0; trial < 200; ++trial) { // one front serves them all
+		const Graph graph(40, random.index(160), random);
+		const std::vector<int> roots = someNodes(1 + random.index(3), 40, random);
+		const double bound = trial % 2 == 0 ? kFar : random.index(12);
+		const Array<double> distance = graph.distances(roots);
+		front.clear();
+		for (const int node : distance.indices()) {
+			ASSERT_EQ(front[node], kFar);
+			ASSERT_EQ(front.parent(node), -1);
+		}
+		for (int root : roots)
+			front.offer(root, 0.0);
+		std::vector<int> order;
+		while (front.nearest() < bound) {
+			const double nearest = front.nearest();
+			const int node = front.next(bound);
+			ASSERT_GE(node, 0);
+			EXPECT_EQ(front[node], nearest);
+			order.push_back(node);
+			graph.neighbours(node, [&](int to, double length, int link) {
+				front.offer(to, front[node] + length, link);
+			});
+		}
+		EXPECT_EQ(front.next(bound), -1);
+		std::vector<int> expected;
+		for (const int node : distance.indices())
+			if (distance[node] < bound)
+				expected.push_back(node);
+		std::vector<int> sorted = order;
+		std::sort(sorted.begin(), sorted.end());
+		EXPECT_EQ(sorted, expected); // each once
+		for (std::size_t i = 0; i + 1 < order.size(); ++i)
+			EXPECT_LE(distance[order[i]], distance[order[i + 1]]);
+		for (int node : order)
+			EXPECT_EQ(front[node], distance[node]);
+	}
+}
+
+TEST(SearchFront, TakesEqualDistancesByNumber)
+{
+	SearchFront<int, int> front(6);
+	for (int node : {4, 1, 5, 0, 3})
+		front.offer(node, node == 5 ? 1.0 : 2.0, 10 + node);
+	front.offer(2, 3.0, 1);
+	front.offer(2, 2.0, 2); // replaces the longer path
+	front.offer(2, 2.0, 3); // and is not replaced by an equal one
+	std::vector<int> order;
+	for (int node; (node = front.next()) >= 0;)
+		order.push_back(node);
+	EXPECT_EQ(order, (std::vector<int>{5, 0, 1, 2, 3, 4}));
+	EXPECT_EQ(front.parent(2), 2);
+	EXPECT_EQ(front.parent(4), 14);
+	EXPECT_EQ(front.nearest(), kFar);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where cones may lie, the tree of their seams, and the steps of the search for them.
+#include "linearised.h"
+
+#include <ricci/cones/cone_search.h>
+#include <ricci/base/shortest_paths.h>
+#include <ricci/metric/area.h>
+
+#include <set>
+#include <tuple>
+
+namespace ricci::testing {
+namespace {
+
+using Distances = std::vector<std::vector<double>>;
+
+/// Lengths of shortest paths between all vertices along edges, in units of the square root of the surface's
+/// area, by the algorithm of Floyd and Warshall.
+Distances distances(const EmbeddedSurface& surface)
+{
+	const std::size_t n = at(surface.triangulation.vertexCount());
+	const double unit = std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
+	Distances d(n, std::vector<double>(n, HUGE_VAL));
+	for (std::size_t i = 0; i < n; ++i)
+		d[i][i] = 0.0;
+	for (const Edge e : surface.triangulation.edges()) {
+		const auto [i, j] = surface.triangulation.ends(e);
+		double& there = d[at(i)][at(j)];
+		there = d[at(j)][at(i)] = std::min(there, surface.lengths[e] / unit);
+	}
+	for (std::size_t k = 0; k < n; ++k)
+		for (std::size_t i = 0; i < n; ++i)
+			for (std::size_t j = 0; j < n; ++j)
+				d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
+	return d;
+}
+
+/// Length of the minimum spanning tree: edges by length, each that joins two parts, by Kruskal's algorithm.
+/// \param distance [i][j] of the vertices
+double treeLength(const Distances& distance)
+{
+	std::vector<std::tuple<double, std::size_t, std::size_t>> edges;
+	std::vector<std::size_t> part;
+	for (std::size_t i = 0; i < distance.size(); ++i) {
+		part.push_back(i);
+		for (std::size_t j = 0; j < i; ++j)
+			edges.emplace_back(distance[i][j], i, j);
+	}
+	std::sort(edges.begin(), edges.end());
+	double length = 0.0;
+	for (const auto& [d, i, j] : edges)
+		if (part[i] != part[j]) {
+			length += d;
+			std::replace(part.begin(), part.end(), std::size_t(part[i]), std::size_t(part[j]));
+		}
+	return length;
+}
+
+SurfaceMesh slab(int genus, int subdivision = 2)
+{
+	Random random(910);
+	return shaken(perforatedSlab(genus, subdivision), 0.05, random);
+}
+
+/// The search's parts on one surface.
+struct Search
+{
+	Linearised linear;
+	ConeSites sites;
+	ConeModel model;
+
+	explicit Search(const SurfaceMesh& mesh, int vertices = -1) :
+			linear({"", mesh}), sites(linear.surface, vertices), model(linear.flow, linear.total())
+	{
+	}
+
+	Search& with(const std::vector<Vertex>& cones)
+	{
+		model.append(cones);
+		model.fit();
+		return *this;
+	}
+	/// Five vertices, \p step apart.
+	std::vector<Vertex> places(int step) const
+	{
+		std::vector<Vertex> vertices;
+		for (int i = 0; i < 5; ++i)
+			vertices.emplace_back(i * step % linear.flow.vertexCount());
+		return vertices;
+	}
+	std::set<Vertex> cones() const
+	{
+		EXPECT_TRUE(
+			!model.hasFixedSum() || std::abs(model.curvatures().sum() - model.total()) < 1e-10);
+		return {model.vertices().begin(), model.vertices().end()};
+	}
+};
+
+/// On a sphere, where there are no other seams, paths that may begin on one another are no longer than those
+/// between the cones alone, and no shorter than half of them.
+TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
+{
+	const Search search(slab(0, 3));
+	const auto distance = distances(search.linear.surface);
+	EXPECT_EQ(search.sites.cutLength(), 0.0);
+	for (const int step : {7, 13, 19}) {
+		const std::vector<Vertex> cones = search.places(step);
+		Distances between;
+		for (const Vertex v : cones) {
+			between.emplace_back();
+			for (const Vertex w : cones)
+				between.back().push_back(distance[at(v)][at(w)]);
+		}
+		const SeamTree tree(search.sites, cones);
+		EXPECT_LE(tree.length(), treeLength(between) * (1 + 1e-12));
+		EXPECT_GE(tree.length(), 0.5 * treeLength(between));
+		for (const Vertex v : search.linear.surface.triangulation.vertices())
+			for (const Vertex cone : cones)
+				EXPECT_LE(tree.distance(v), distance[at(v)][at(cone)] + 1e-12);
+	}
+}
+
+/// Each cone in turn that is nearest to what is there; taken out, it leaves the tree as if it had never been.
+TEST(SeamTree, TakesTheNearestConesFirstAndForgetsThem)
+{
+	for (const int genus : {0, 1, 2}) {
+		const Search search(slab(genus, 3));
+		EXPECT_EQ(search.sites.cutLength() > 0.0, genus > 0);
+		std::vector<Vertex> cones = search.places(17), left = cones;
+		const auto expectSame = [&](const SeamTree& a, const SeamTree& b) {
+			EXPECT_NEAR(a.length(), b.length(), 1e-12);
+			for (const Vertex v : search.linear.surface.triangulation.vertices())
+				EXPECT_NEAR(a.distance(v), b.distance(v), 1e-12);
+		};
+		SeamTree wanted(search.sites);
+		while (!left.empty()) {
+			const auto nearest =
+				std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
+					return wanted.distance(a) < wanted.distance(b);
+				});
+			wanted.add(*nearest);
+			EXPECT_EQ(wanted.distance(*nearest), 0.0);
+			left.erase(nearest);
+		}
+		const SeamTree tree(search.sites, cones);
+		expectSame(tree, wanted);
+		for (const Vertex v : cones)
+			EXPECT_NEAR(tree.ownLength(v), wanted.ownLength(v), 1e-12);
+		for (std::size_t out = 1; out < cones.size(); ++out) {
+			SeamTree without(search.sites);
+			for (const Vertex v : cones)
+				if (v != cones[out])
+					without.add(v);
+			SeamTree other = without;
+			const double longer = without.distance(cones[out]);
+			other.add(cones[out]);
+			EXPECT_NEAR(other.length(), without.length() + longer, 1e-12);
+			EXPECT_NEAR(other.ownLength(cones[out]), longer, 1e-12);
+			EXPECT_NEAR(other.remove(cones[out]), longer, 1e-12);
+			expectSame(other, without);
+		}
+	}
+}
+
+/// The seams without cones open a surface to a disk: 2 g + b - 1 loops or paths are in them.
+TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
+{
+	const Search search(revolved({{1.0, 0.0}, {1.0, 0.5}, {1.0, 1.0}, {1.0, 1.5}}, 16));
+	const EmbeddedSurface& cylinder = search.linear.surface;
+	const double area = euclideanArea(cylinder.triangulation, cylinder.lengths);
+	EXPECT_NEAR(search.sites.cutLength(), 1.5 / std::sqrt(area), 1e-9);
+	for (const Vertex v : cylinder.triangulation.vertices())
+		EXPECT_TRUE(!cylinder.topology.boundary[v] || search.sites.toCut()[v] == 0.0);
+}
+
+TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
+{
+	Random random(811);
+	const Search search(slab(2, 6));
+	VertexArray<Vertex> chosen;
+	for (int v = 3; v < search.linear.flow.vertexCount(); v += 1 + random.index(40))
+		chosen.push_back(Vertex(v));
+	const ConeSites coarse(search.sites, chosen);
+	EXPECT_EQ(coarse.count(), chosen.size());
+	const auto distancesOf = [&](const ConeSites& sites, const auto& placeOf) {
+		Distances d;
+		for (const Vertex i : chosen.indices()) {
+			const auto way = [&](Vertex from, const auto& visit) {
+				for (const ConeSites::Way& w : sites.ways(from))
+					visit(w.to, w.length, from);
+			};
+			const auto distance =
+				shortestPaths<Vertex, Vertex>(sites.toCut().size(), {placeOf(i)}, way).distance;
+			d.emplace_back();
+			for (const Vertex j : chosen.indices())
+				d.back().push_back(distance[placeOf(j)]);
+		}
+		return d;
+	};
+	const Distances exact = distancesOf(search.sites, [&](Vertex i) { return chosen[i]; });
+	const Distances longer = distancesOf(coarse, [](Vertex i) { return i; });
+	EXPECT_NEAR(treeLength(longer) / treeLength(exact), 1.0, 1e-12);
+	for (std::size_t i = 0; i < exact.size(); ++i)
+		for (std::size_t j = 0; j < exact.size(); ++j)
+			EXPECT_GE(longer[i][j], exact[i][j] - 1e-12);
+}
+
+double cost(const ConeModel& model, const SeamTree& tree)
+{
+	return kEnergyPrice * model.energy() + kSeamPrice * tree.length();
+}
+
+TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
+{
+	int moved = 0;
+	for (const int step : {7, 13, 19})
+		for (const double allowed : {1.0, 1.05, 1e9}) {
+			const int vertices = step == 7 ? 40 : -1; // where cones may lie
+			Search search(slab(0, 3), vertices);
+			ConeModel& model = search.with(search.places(step)).model;
+			const double distortion = model.distortion();
+			const std::vector<Vertex> before = model.vertices();
+			SeamTree tree(search.sites, before);
+			const double least = cost(model, tree);
+			shortenConeTree(model, tree, search.sites, allowed * distortion);
+			EXPECT_EQ(search.cones().size(), 5u);
+			EXPECT_LE(model.distortion(), allowed * distortion * (1 + 1e-9));
+			EXPECT_TRUE(vertices < 0 || search.cones().rbegin()->number() < vertices);
+			const bool hasMoved = model.vertices() != before;
+			EXPECT_LE(cost(model, tree), hasMoved ? least - 9e-5 : least + 1e-12);
+			moved += hasMoved;
+		}
+	EXPECT_GT(moved, 0);
+}
+
+/// At first as few as carry the total; a negative one goes where it lowers the energy more than at most
+/// vertices. After a fit the gradient is the same at all cones below their bound: curvature that moves from
+/// there to another vertex changes the energy by the difference. Each cone more lies where that is largest.
+TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
+{
+	for (const int genus : {0, 1, 2}) {
+		Search search(slab(genus), 12);
+		ConeModel& model = search.model;
+		startCones(model, search.sites);
+		EXPECT_EQ(model.size(), model.minSize());
+		double energy = model.energy();
+		if (genus == 2) {
+			Search other(slab(genus));
+			int better = 0;
+			for (int v = 0; v < 12; ++v) {
+				better += other.with({Vertex(v)}).model.energy() < energy;
+				other.model.remove(0);
+			}
+			EXPECT_LT(better, 3);
+		}
+		while (model.size() < 12) {
+			const VertexVector phi = model.gradient();
+			double level = model.area().dot(phi), most = 0.0;
+			for (int i = 0; i < model.size(); ++i)
+				if (model.curvature(i) < 4.7) // a cone below its bound
+					level = phi[model.vertex(i)];
+			for (int v = 0; v < 12; ++v)
+				if (!model.isCone(Vertex(v)))
+					most = std::max(most, std::abs(phi[Vertex(v)] - level));
+			ASSERT_TRUE(addCones(model, search.sites));
+			const Vertex added = model.vertex(model.size() - 1);
+			EXPECT_NEAR(std::abs(phi[added] - level), most, 1e-9 * most);
+			EXPECT_LE(model.energy(), energy * (1 + 1e-9));
+			energy = model.energy();
+			EXPECT_EQ(static_cast<int>(search.cones().size()), model.size());
+		}
+		EXPECT_FALSE(addCones(model, search.sites)); // no vertex is left
+		EXPECT_LT(search.cones().rbegin()->number(), 12);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_LINEARISED_H
+#define RICCI_TESTS_LINEARISED_H
+
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/cones/linear_flow.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+namespace ricci::testing {
+
+/// A mesh with a boundary that is to do this while cones are placed.
+struct LinearCase
+{
+	std::string name;
+	SurfaceMesh mesh;
+	ConeBoundary boundary = ConeBoundary::Fixed;
+};
+
+/// Closed and with holes: a sphere, and a surface of this \p genus, of so many squares along an edge.
+inline std::vector<LinearCase>
+linearCases(std::uint64_t seed, int ofSphere, int genus, int ofOther, double noise)
+{
+	Random random(seed);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, ofSphere), noise, random);
+	const SurfaceMesh other = shaken(perforatedSlab(genus, ofOther), noise, random);
+	return {
+		{"sphere", sphere},
+		{"genus " + std::to_string(genus), other},
+		{"disk, fixed boundary", withoutStars(sphere, {0})},
+		{"disk, prescribed boundary", withoutStars(sphere, {0}), ConeBoundary::Prescribed},
+		{"two holes, fixed boundary", withoutStars(other, {0, 40})},
+		{"two holes, prescribed", withoutStars(other, {0, 40}), ConeBoundary::Prescribed}};
+}
+
+/// A linear flow with what it refers to.
+struct Linearised
+{
+	Packed packed;
+	EmbeddedSurface surface;
+	InitialPacking start;
+	LinearFlow flow;
+
+	explicit Linearised(const LinearCase& c) :
+			packed(c.mesh),
+			surface(embeddedSurface(VertexArray<Point3>(c.mesh.positions), c.mesh.triangles)),
+			start(initialPacking(surface, FlowOptions())), flow(surface, start, c.boundary)
+	{
+	}
+
+	double total() const { return surface.topology.type.totalCurvature(); }
+
+	/// Different vertices inside.
+	std::vector<Vertex> verticesInside(int count, Random& random) const
+	{
+		std::vector<Vertex> chosen;
+		while (static_cast<int>(chosen.size()) < count) {
+			const Vertex v(random.index(flow.vertexCount()));
+			if (!surface.topology.boundary[v] &&
+				std::find(chosen.begin(), chosen.end(), v) == chosen.end())
+				chosen.push_back(v);
+		}
+		return chosen;
+	}
+};
+
+/// The linear flow on a surface by dense matrices.
+struct DenseFlow
+{
+	Eigen::MatrixXd laplacian; ///< rows and columns by vertex
+	VertexVector curvature, area;
+
+	explicit DenseFlow(const Linearised& of)
+	{
+		const IntrinsicMesh& mesh = of.start.mesh;
+		VertexVector u(of.flow.vertexCount());
+		for (const Vertex v : u.indices())
+			u[v] = std::log(of.start.radii[v]);
+		GeometricCurvatureMap<Euclidean> map(CirclePacking{mesh.triangulation, of.start.delta});
+		const auto curvatureAt = [&](Vertex v, double step) {
+			VertexVector moved = u;
+			moved[v] += step;
+			map.evaluate(moved);
+			return map.curvature();
+		};
+		// By central differences of the curvature, so that neither Hessian nor solver are trusted.
+		laplacian.resize(u.size(), u.size());
+		for (const Vertex v : u.indices())
+			laplacian.col(v.number()) = (curvatureAt(v, 1e-6) - curvatureAt(v, -1e-6)) / 2e-6;
+		curvature = curvatureAt(Vertex(0), 0.0);
+		area.setZero(u.size());
+		for (const Face f : mesh.triangulation.faces()) {
+			double l[3];
+			for (std::size_t k = 0; k < 3; ++k)
+				l[k] = mesh.lengths[mesh.triangulation.halfedges(f)[k].edge()];
+			const double s = 0.5 * (l[0] + l[1] + l[2]);
+			for (const Vertex v : mesh.triangulation.vertices(f))
+				area[v] += std::sqrt(s * (s - l[0]) * (s - l[1]) * (s - l[2]));
+		}
+		area /= area.sum();
+	}
+
+	/// The u of least norm that the Laplacian maps to \p rhs, moved to mean 0 by area.
+	VertexVector solve(const VertexVector& rhs) const
+	{
+		VertexVector u = laplacian.completeOrthogonalDecomposition().solve(rhs);
+		u.array() -= area.dot(u);
+		return u;
+	}
+
+	/// The factor of the metric with curvature \p k.
+	VertexVector factor(const VertexVector& k) const { return solve(k - curvature); }
+
+	/// The field phi with L phi = A u, up to a constant: L is symmetric.
+	VertexVector gradient(const VertexVector& u) const { return solve(area.cwiseProduct(u)); }
+};
+
+/// |\p a - \p b| over |\p b|, largest entries, where both are known up to a constant.
+inline double relativeDifference(VertexVector a, VertexVector b, const VertexVector& area)
+{
+	a.array() -= area.dot(a);
+	b.array() -= area.dot(b);
+	return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
+}
+
+} // namespace ricci::testing
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/numerics/anderson_mixing.h>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// x <- A x + b, where A has the spectral norm \p norm at most.
+struct AffineMap
+{
+	Eigen::MatrixXd A;
+	Eigen::VectorXd b;
+
+	AffineMap(int n, double norm, Random& random) : A(n, n), b(n)
+	{
+		for (int i = 0; i < n; ++i) {
+			b[i] = random.real(-1, 1);
+			for (int j = 0; j < n; ++j)
+				A(i, j) = random.real(-1, 1);
+		}
+		A *= norm / A.norm();
+	}
+	std::vector<double> operator()(const std::vector<double>& x) const
+	{
+		const Eigen::VectorXd y = A * Eigen::Map<const Eigen::VectorXd>(x.data(), b.size()) + b;
+		return {y.data(), y.data() + y.size()};
+	}
+	double error(const std::vector<double>& x) const
+	{
+		const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(b.size(), b.size()) - A;
+		return (Eigen::Map<const Eigen::VectorXd>(x.data(), b.size()) - rest.lu().solve(b)).norm();
+	}
+};
+
+TEST(AndersonMixing, EndsAfterOneStepMoreThanUnknownsOnAnyAffineMap)
+{
+	Random random(301);
+	for (int trial = 0; trial < 50; ++trial) {
+		const int n = 1 + random.index(6);
+		const AffineMap map(n, random.real(0.3, 3.0), random); // the plain iteration may diverge
+		AndersonMixing mixing(static_cast<std::size_t>(n));
+		std::vector<double> x(static_cast<std::size_t>(n), 0.0);
+		for (int step = 0; step <= n; ++step)
+			x = mixing.next(x, map(x));
+		EXPECT_LT(map.error(x), 1e-6 * (1.0 + map.error(std::vector<double>(x.size(), 0.0))));
+		mixing.restart();
+		EXPECT_EQ(mixing.next(x, map(x)), map(x));
+	}
+}
+
+TEST(AndersonMixing, WithoutDepthIsThePlainIteration)
+{
+	Random random(302);
+	const AffineMap map(4, 0.9, random);
+	AndersonMixing mixing(0);
+	std::vector<double> x(4, 0.0);
+	for (int step = 0; step < 5; ++step) {
+		const std::vector<double> image = map(x);
+		x = mixing.next(x, image);
+		EXPECT_EQ(x, image);
+	}
+}
+
+TEST(AndersonMixing, OneStepBackMakesTheResidualShortest)
+{
+	Random random(303);
+	const AffineMap map(3, 0.8, random);
+	const std::vector<double> first{0.3, -0.2, 0.5};
+	AndersonMixing mixing(1);
+	const std::vector<double> second = mixing.next(first, map(first));
+	const std::vector<double> third = mixing.next(second, map(second));
+	// The map is affine: third is the image of the affine combination whose residual is shortest.
+	const auto residual = [&](double share) {
+		std::vector<double> x(3);
+		for (std::size_t i = 0; i < 3; ++i)
+			x[i] = second[i] + share * (first[i] - second[i]);
+		const std::vector<double> y = map(x);
+		return std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]);
+	};
+	double best = -2.0;
+	for (double share = -2.0; share < 2.0; share += 1e-4)
+		if (residual(share) < residual(best))
+			best = share;
+	for (std::size_t i = 0; i < 3; ++i) {
+		const double combined = map(second)[i] + best * (map(first)[i] - map(second)[i]);
+		EXPECT_NEAR(third[i], combined, 1e-3);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

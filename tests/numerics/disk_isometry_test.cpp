@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/wide.h"
+
+#include <ricci/layout/hyperbolic_layout.h>
+#include <ricci/numerics/disk_isometry.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Complex = std::complex<double>;
+
+DiskIsometry randomIsometry(Random& random)
+{
+	return DiskIsometry::rotation(random.real(-kPi, kPi)) *
+		   DiskIsometry::translation(random.real(0.0, 3.0)) *
+		   DiskIsometry::rotation(random.real(-kPi, kPi));
+}
+
+Complex randomPoint(Random& random)
+{
+	return std::polar(std::sqrt(random.real(0.0, 0.9)), random.real(-kPi, kPi));
+}
+
+double gap(const DiskIsometry& p, const DiskIsometry& q)
+{
+	return (p * q.inverse()).distanceFromIdentity();
+}
+
+TEST(DiskIsometry, IsometriesAreAGroupThatActsOnTheDisk)
+{
+	Random random(80);
+	for (int i = 0; i < 500; ++i) {
+		const DiskIsometry p = randomIsometry(random), q = randomIsometry(random),
+						   r = randomIsometry(random);
+		EXPECT_LT(gap((p * q) * r, p * (q * r)), 1e-9);
+		EXPECT_LT((p * p.inverse()).distanceFromIdentity(), 1e-13);
+		EXPECT_LT((p.inverse() * p).distanceFromIdentity(), 1e-13);
+		EXPECT_LT(gap((p * q).inverse(), q.inverse() * p.inverse()), 1e-10);
+		EXPECT_NEAR(std::norm(p.a) - std::norm(p.b), 1.0, 1e-13);
+		const double scale = random.real(0.5, 2.0);
+		EXPECT_LT(gap(DiskIsometry{scale * p.a, scale * p.b}.normalised(), p), 1e-13);
+		const Complex z = randomPoint(random), w = randomPoint(random);
+		EXPECT_LT(std::abs((p * q)(z) -p(q(z))), 1e-12);
+		EXPECT_LT(std::abs(p.inverse()(p(z)) - z), 1e-12);
+		EXPECT_LT(std::abs(p(0.0) - p.origin()), 1e-14);
+		EXPECT_LT(std::abs(p(z)), 1.0);
+		// Distances are kept, and the sense of rotation.
+		EXPECT_NEAR(chordLength(p(z), p(w)) / chordLength(z, w), 1.0, 1e-11);
+		const Complex x = randomPoint(random);
+		EXPECT_EQ(hyperbolicOrientation(p(z), p(w), p(x)), hyperbolicOrientation(z, w, x));
+	}
+	EXPECT_EQ((DiskIsometry{{-1, 0}, {0, 0}}).distanceFromIdentity(), 0.0); // the same isometry
+}
+
+TEST(DiskIsometry, RotationsAndTranslations)
+{
+	Random random(81);
+	for (int i = 0; i < 200; ++i) {
+		const double angle = random.real(-kPi, kPi), length = random.real(0.0, 5.0);
+		const Complex z = randomPoint(random);
+		EXPECT_LT(std::abs(DiskIsometry::rotation(angle)(z) - std::polar(1.0, angle) * z), 1e-15);
+		const DiskIsometry t = DiskIsometry::translation(length);
+		EXPECT_NEAR(t.origin().real(), std::tanh(length / 2), 1e-15);
+		EXPECT_EQ(t.origin().imag(), 0.0);
+		EXPECT_NEAR(t.displacement(), length, 1e-14 * (1 + length));
+		for (double x : {-0.7, 0.0, 0.3}) // the real axis moves along itself
+			EXPECT_EQ(t(x).imag(), 0.0);
+		EXPECT_LT(std::abs(DiskIsometry::translationTo(z).origin() - z), 1e-15);
+		// Along the straight line: the direction at 0 is not turned.
+		EXPECT_EQ(DiskIsometry::translationTo(z).a.imag(), 0.0);
+	}
+}
+
+TEST(DiskIsometry, TraceTellsAngleAndLength)
+{
+	Random random(82);
+	for (int i = 0; i < 500; ++i) {
+		const DiskIsometry g = randomIsometry(random), back = g.inverse();
+		const double length = random.real(0.1, 4.0), angle = random.real(-kPi, kPi);
+		const DiskIsometry along = g * DiskIsometry::translation(length) * back;
+		EXPECT_NEAR(std::abs(along.trace()), 2 * std::cosh(length / 2), 1e-11);
+		const DiskIsometry turn = g * DiskIsometry::rotation(angle) * back;
+		EXPECT_NEAR(std::abs(turn.trace()), 2 * std::cos(angle / 2), 1e-11);
+		// Points move by the length on the axis, and further beside it.
+		for (double x : {-0.5, 0.0, 0.6}) {
+			EXPECT_NEAR(chordLength(g(x), along(g(x))), 2 * std::sinh(length / 2), 1e-10);
+		}
+		const Complex z = randomPoint(random);
+		EXPECT_GE(chordLength(g(z), along(g(z))), 2 * std::sinh(length / 2) - 1e-10);
+		// Its fixed point is the centre of the rotation.
+		EXPECT_LT(std::abs(turn(g.origin()) - g.origin()), 1e-11);
+	}
+}
+
+TEST(DiskIsometry, AxisEndsAreFixedAndPointsMoveFromOneToTheOther)
+{
+	Random random(85);
+	for (int i = 0; i < 500; ++i) {
+		const DiskIsometry g = randomIsometry(random);
+		const double length = random.real(0.1, 4.0);
+		for (double sign : {1.0, -1.0}) { // the same isometry
+			DiskIsometry along = g * DiskIsometry::translation(length) * g.inverse();
+			along = {sign * along.a, sign * along.b};
+			Complex from, to;
+			ASSERT_TRUE(along.axis(from, to));
+			EXPECT_LT(std::abs(from - g(-1.0)), 1e-9);
+			EXPECT_LT(std::abs(to - g(1.0)), 1e-9);
+			EXPECT_LT(std::abs(along(from) - from), 1e-9);
+			EXPECT_LT(std::abs(along(to) - to), 1e-9);
+			ASSERT_TRUE(along.inverse().axis(from, to)); // the other way
+			EXPECT_LT(std::abs(to - g(-1.0)), 1e-9);
+		}
+		Complex from, to;
+		const DiskIsometry turn = g * DiskIsometry::rotation(random.real(0.1, kPi)) * g.inverse();
+		EXPECT_FALSE(turn.axis(from, to));
+	}
+	Complex from, to;
+	EXPECT_FALSE(DiskIsometry().axis(from, to));
+	EXPECT_FALSE((DiskIsometry{{1.0, 0.5}, 0.5}).axis(from, to)); // moves along a horocycle
+}
+
+TEST(DiskIsometry, ChordLengthIsTwiceSinhOfHalfTheDistance)
+{
+	RICCI_NEEDS_WIDE_LONG_DOUBLE();
+	Random random(84);
+	for (int i = 0; i < 500; ++i) {
+		const std::complex<long double> z = randomPoint(random), w = randomPoint(random);
+		const long double d = 2 * std::atanh(std::abs((z - w) / (1.0L - std::conj(w) * z)));
+		EXPECT_NEAR(
+			chordLength(Complex(z), Complex(w)) / static_cast<double>(2 * std::sinh(d / 2)),
+			1.0,
+			1e-14);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flat_maps.h"
+#include "support/random.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/optimize/patch_energy.h>
+#include <ricci/optimize/untangle.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+using Complex = std::complex<double>;
+
+const Validity kValid{1e-4, 1e-2, false};
+
+/// More than any of them takes.
+constexpr int kMaxSteps = 1000;
+
+/// The whole of a drawing as one patch, with the shapes of the surface.
+struct Whole
+{
+	FlatMesh flat;
+	PointGroups groups;
+	Patch patch;
+	std::vector<RestShape> shapes;
+
+	explicit Whole(FlatMesh d) : flat(std::move(d)), groups(insidePoints(flat))
+	{
+		const int middle = vertexAt(kSide / 2, kSide / 2);
+		std::vector<int> seeds;
+		for (const int f : flat.points.indices())
+			for (const int p : flat.points[f])
+				if (p == middle)
+					seeds.push_back(f);
+		std::vector<Patch> patches = PatchFinder(flat, groups).patches(seeds, 2 * kSide);
+		patch = patches.at(0);
+		shapes = restShapes(flat, patch, RestShapes::OfSurfaceEvenly, kValid);
+	}
+
+	/// \pre the tick lives as long
+	PatchProblem problem(int maxSteps = kMaxSteps) const { return problemOf(flat, maxSteps); }
+
+	/// The same for the patch elsewhere.
+	PatchProblem problemOf(const FlatMesh& d, int maxSteps = kMaxSteps) const
+	{
+		return {d, groups, patch, shapes, kValid, maxSteps};
+	}
+
+	/// The drawing with the patch's points at \p places.
+	FlatMesh with(const std::vector<Point2>& places) const
+	{
+		FlatMesh moved = flat;
+		for (std::size_t i = 0; i < places.size(); ++i)
+			moved.place[patch.points[i]] = places[i];
+		return moved;
+	}
+
+	double strainOf(const FlatMesh& d) const
+	{
+		double sum = 0.0;
+		for (std::size_t i = 0; i < shapes.size(); ++i)
+			sum += strain(shapes[i], d.at(patch.triangles[i]));
+		return sum;
+	}
+};
+
+double sumOfAreas(const FlatMesh& flat)
+{
+	double sum = 0.0;
+	for (const int f : flat.points.indices()) {
+		const Triangle2 p = flat.at(f);
+		sum += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+	}
+	return sum;
+}
+
+/// A map of a disk that keeps the border of a convex region and turns no triangle covers it once.
+TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
+{
+	for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+		SCOPED_TRACE(seed);
+		const Whole whole(tangled(20, seed));
+		ASSERT_EQ(whole.patch.triangles.size(), std::size_t(2 * kSide * kSide));
+		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
+		ASSERT_GT(notCounterClockwise(whole.flat), 0);
+		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
+		const Untangled result = untangle(whole.problem());
+		ASSERT_FALSE(result.points.empty());
+		EXPECT_GT(result.steps, 0);
+		const FlatMesh moved = whole.with(result.points);
+		EXPECT_EQ(notCounterClockwise(moved), 0);
+		EXPECT_NEAR(sumOfAreas(moved), kSide * kSide, 1e-10);
+		for (const int p : moved.place.indices())
+			if (!isInside(p)) {
+				EXPECT_EQ(moved.place[p], whole.flat.place[p]);
+			}
+		for (const int f : moved.points.indices())
+			EXPECT_TRUE(kValid.isValid(moved.at(f)));
+	}
+}
+
+/// The rest shapes fit together inside the border: there the energy is least.
+TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
+{
+	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+		const Whole whole(tangled(20, seed));
+		const Untangled valid = untangle(whole.problem());
+		ASSERT_FALSE(valid.points.empty());
+		const FlatMesh moved = whole.with(valid.points), flat = square();
+		const Untangled eased = ease(whole.problemOf(moved));
+		ASSERT_FALSE(eased.points.empty());
+		const FlatMesh last = whole.with(eased.points);
+		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
+		EXPECT_LT(whole.strainOf(last), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
+		for (const int p : last.place.indices())
+			EXPECT_LT(distance(last.place[p], flat.place[p]), 0.03);
+	}
+}
+
+/// Three corners on the border decide: no point that moves can mend the triangle.
+TEST(Untangle, SaysWhatItCannotMend)
+{
+	FlatMesh flat = tangled(20, 3);
+	flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
+	const Untangled result = untangle(Whole(flat).problem());
+	EXPECT_TRUE(result.points.empty());
+	EXPECT_GT(result.steps, 0);
+}
+
+TEST(Untangle, TakesNoMoreStepsThanItMay)
+{
+	const Whole whole(tangled(20, 5));
+	const auto steps = [&](int maxSteps) { return untangle(whole.problem(maxSteps)).steps; };
+	const int all = steps(kMaxSteps);
+	ASSERT_GT(all, 3);
+	for (int maxSteps = 0; maxSteps <= all + 2; ++maxSteps)
+		EXPECT_EQ(steps(maxSteps), std::min(maxSteps, all));
+}
+
+TEST(Ease, LeavesWhatIsNotValidAlone)
+{
+	const Whole whole(tangled(20, 7));
+	const Untangled result = ease(whole.problem());
+	EXPECT_TRUE(result.points.empty());
+	EXPECT_EQ(result.steps, 0);
+}
+
+/// (|J|^2 + lambda (1 + det^2 J)) / det J over its value for the rest shape, with lambda = 0.1.
+TEST(Strain, IsThatOfTheSingularValues)
+{
+	Random random(931);
+	for (int trial = 0; trial < 200; ++trial) {
+		const RestShape shape{
+			random.real(0.1, 3.0), Complex(random.real(-2.0, 2.0), random.real(0.05, 2.0))};
+		const double s = random.real(0.2, 4.0), t = random.real(0.2, 4.0);
+		const Complex before = std::polar(1.0, random.real(0.0, 2 * kPi));
+		const Complex after = std::polar(1.0, random.real(0.0, 2 * kPi));
+		const Complex shift(random.real(-5, 5), random.real(-5, 5));
+		const auto mapped = [&](Complex z, double sign) {
+			z *= before;
+			return asPoint(after * Complex(s * z.real(), sign * t * z.imag()) + shift);
+		};
+		const auto triangle = [&](double sign) {
+			return Triangle2{mapped(0.0, sign), mapped(shape.base, sign), mapped(shape.apex, sign)};
+		};
+		const double expected = (s * s + t * t + 0.1 * (1.0 + s * s * t * t)) / (s * t) / 2.2;
+		EXPECT_NEAR(strain(shape, triangle(1.0)), expected, 1e-9 * expected);
+		EXPECT_EQ(strain(shape, triangle(-1.0)), std::numeric_limits<double>::infinity());
+	}
+	const RestShape unit{1.0, Complex(0.0, 1.0)};
+	EXPECT_NEAR(strain(unit, {{{0, 0}, {1, 0}, {0, 1}}}), 1.0, 1e-15);
+	EXPECT_EQ(strain(unit, {{{0, 0}, {1, 0}, {2, 0}}}), std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace ricci::testing

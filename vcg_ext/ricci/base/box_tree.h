@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_BOX_TREE_H
+#define RICCI_BOX_TREE_H
+
+#include "indexed.h"
+#include "points.h"
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+/// Binary tree of boxes, divided at the median centre along the wider direction of the centres. The
+/// same boxes always give the same tree.
+class BoxTree
+{
+public:
+	explicit BoxTree(const std::vector<Box2>& boxes);
+
+	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
+	template<class Visit>
+	void meetingPairs(const Visit& visit) const
+	{
+		meetingPairs(visit, [](int, int) { return false; });
+	}
+
+	/// The same without the pairs that lie in two nodes for which areApart(node, node).
+	template<class Visit, class AreApart>
+	void meetingPairs(const Visit& visit, const AreApart& areApart) const
+	{
+		if (m_nodes.empty())
+			return;
+		std::vector<std::array<int, 2>> stack{{0, 0}};
+		while (!stack.empty()) {
+			const auto [a, b] = stack.back();
+			stack.pop_back();
+			const Node &x = m_nodes[a], &y = m_nodes[b];
+			if (a != b && (!x.box.meets(y.box) || areApart(a, b)))
+				continue;
+			if (x.isLeaf() && y.isLeaf()) {
+				for (int i = x.first; i < x.last; ++i)
+					for (int j = a == b ? i + 1 : y.first; j < y.last; ++j)
+						if (m_boxes[i].meets(m_boxes[j]))
+							visit(m_order[i], m_order[j]);
+			}
+			else if (a == b) {
+				stack.push_back({x.left, x.left});
+				stack.push_back({x.right, x.right});
+				stack.push_back({x.left, x.right});
+			}
+			else if (y.isLeaf() || (!x.isLeaf() && x.last - x.first >= y.last - y.first)) {
+				stack.push_back({x.left, b});
+				stack.push_back({x.right, b});
+			}
+			else {
+				stack.push_back({a, y.left});
+				stack.push_back({a, y.right});
+			}
+		}
+	}
+
+	/// Calls visit(i) for each box that contains \p p, its border included, but for those in nodes for
+	/// which isOutside(node).
+	template<class Visit, class IsOutside>
+	void boxesAround(const Point2& p, const Visit& visit, const IsOutside& isOutside) const
+	{
+		search(
+			[&](const Box2& box) { return box.contains(p); },
+			[&](int i) {
+				visit(i);
+				return false;
+			},
+			isOutside);
+	}
+
+	/// For each node join() of the values of its boxes, from ofBox(i), beginning with Value().
+	template<class Value, class OfBox, class Join>
+	Array<Value> valuesOfNodes(const OfBox& ofBox, const Join& join) const
+	{
+		Array<Value> values(m_nodes.size());
+		for (int node = m_nodes.size() - 1; node >= 0; --node) { // those below come after it
+			const Node& x = m_nodes[node];
+			if (!x.isLeaf())
+				values[node] = join(values[x.left], values[x.right]);
+			else
+				for (int i = x.first; i < x.last; ++i)
+					values[node] = join(values[node], ofBox(m_order[i]));
+		}
+		return values;
+	}
+
+	/// Whether isFound(i) for a box that has inner points in common with \p box; no other is asked then.
+	template<class IsFound>
+	bool meetsAny(const Box2& box, const IsFound& isFound) const
+	{
+		return meetsAny(box, isFound, [](int) { return false; });
+	}
+
+	/// The same without the boxes in nodes for which areApart(node).
+	template<class IsFound, class AreApart>
+	bool meetsAny(const Box2& box, const IsFound& isFound, const AreApart& areApart) const
+	{
+		return search([&](const Box2& own) { return own.meets(box); }, isFound, areApart);
+	}
+
+	/// Longer side of the box round all boxes; 0 where there are none.
+	double extent() const { return m_nodes.empty() ? 0.0 : m_nodes[0].box.extent(); }
+
+private:
+	struct Node
+	{
+		Box2 box;
+		int first, last; ///< in m_order
+		int left = -1, right = -1;
+
+		bool isLeaf() const { return left < 0; }
+	};
+
+	struct Item
+	{
+		Point2 centre;
+		int number;
+	};
+
+	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last);
+
+	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is;
+	/// not for those in nodes that \p isLeftOut.
+	template<class Concerns, class IsFound, class IsLeftOut>
+	bool search(const Concerns& concerns, const IsFound& isFound, const IsLeftOut& isLeftOut) const
+	{
+		if (m_nodes.empty())
+			return false;
+		// One node of each level and one more; halves of ints have at most 32 levels.
+		std::array<int, 40> stack{};
+		for (std::size_t height = 1; height > 0;) {
+			const int node = stack[--height];
+			const Node& x = m_nodes[node];
+			if (!concerns(x.box) || isLeftOut(node))
+				continue;
+			if (!x.isLeaf()) {
+				stack[height++] = x.left;
+				stack[height++] = x.right;
+				continue;
+			}
+			for (int i = x.first; i < x.last; ++i)
+				if (concerns(m_boxes[i]) && isFound(m_order[i]))
+					return true;
+		}
+		return false;
+	}
+
+	Array<int> m_order;  ///< the boxes, so that those of a node are consecutive
+	Array<Box2> m_boxes; ///< in this order
+	Array<Node> m_nodes;
+};
+
+} // namespace ricci
+
+#endif

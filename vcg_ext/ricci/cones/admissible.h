@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_ADMISSIBLE_H
+#define RICCI_ADMISSIBLE_H
+
+#include "../base/tolerances.h"
+#include "../flow/target.h"
+#include "../mesh/triangulation.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// Values at the vertices of a surface that some targets read.
+struct TargetInput
+{
+	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
+	VertexArray<double> prescribed;   ///< radians, for Prescribed
+	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+};
+
+/// The target with K = 0 at every vertex of a surface, and no u fixed.
+Target zeroTarget(const Topology& topology);
+
+/// The vertices that are selected, in order.
+std::vector<Vertex> selectedVertices(const VertexArray<char>& selected);
+
+/// The same for cones, which have to be somewhere.
+/// \throw InvalidOption (NothingSelected) if there is none
+std::vector<Vertex> selectedCones(const VertexArray<char>& selected);
+
+/// Copies prescribed curvatures to the target. Values of the size of rounding are no cones and
+/// become 0.
+/// \throw InadmissibleCurvature (NotFinite) if a value is NaN or infinite
+void setPrescribed(const TargetInput& input, Target& target);
+
+/// Checks what holds for the curvature at each vertex of any metric, flat or hyperbolic, because its
+/// angles are positive: K < 2 pi inside and K < pi on the boundary. Vertices where u is fixed are
+/// left out, and so is a circular target, whose boundary is yet to be adapted.
+/// \throw InadmissibleCurvature (TooLargeInside, TooLargeOnBoundary) with the largest violation
+void checkVertexBounds(const Topology& topology, const Target& target);
+
+/// Checks what Gauss-Bonnet asks of the curvature inside where the boundary is free: its n vertices
+/// take what is left, each less than pi, and a hyperbolic area is positive, so that in both geometries
+/// sum K > 2 pi chi - pi n over the vertices inside. Nothing is asked where no u is fixed.
+/// \throw InadmissibleCurvature (FreeBoundary) with both numbers
+void checkFreeBoundary(const Topology& topology, const Target& target);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "linear_flow.h"
+
+#include "../base/task.h"
+#include "../error.h"
+#include "../flow/curvature_map.h"
+#include "../numerics/aggregation.h"
+#include "../metric/circle_packing.h"
+#include "../metric/euclidean.h"
+
+#include <Eigen/IterativeLinearSolvers>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// An edge with less than this share of a vertex's diagonal is one of rounding.
+constexpr double kNoEdge = 1e-9;
+
+/// The curvature map of \p packing at its radii.
+std::shared_ptr<const CurvatureMap> mapOf(const InitialPacking& packing)
+{
+	VertexVector u(packing.radii.size());
+	for (const Vertex v : packing.radii.indices())
+		u[v] = std::log(packing.radii[v]);
+	auto map = std::make_shared<GeometricCurvatureMap<Euclidean>>(
+		CirclePacking{packing.mesh.triangulation, packing.delta});
+	map->evaluate(u);
+	return map;
+}
+
+} // namespace
+
+LinearFlow::LinearFlow(
+	const EmbeddedSurface& surface, InitialPacking& start, ConeBoundary boundary) :
+		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
+{
+	m_unfactored = mapOf(
+		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
+	m_curvature = m_unfactored->curvature();
+	computeAreas(*m_unfactored);
+	layOut(surface, boundary);
+	if (start.isDelaunay)
+		start.hessian = m_hessian;
+}
+
+LinearFlow::LinearFlow(
+	const EmbeddedSurface& surface,
+	const FlowResult& flow,
+	ConeBoundary boundary,
+	VertexVector weights) :
+		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
+		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
+{
+	m_unfactored = flow.doubled
+					   ? mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}))
+					   : flow.metric;
+	layOut(surface, boundary);
+}
+
+LinearFlow::LinearFlow(LinearSystem system) :
+		m_system(std::make_unique<SparseCholesky>()), m_fixesBoundary(system.fixesBoundary),
+		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
+		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
+{
+	for (int v = 0; v < vertexCount(); ++v)
+		m_row.push_back(m_fixesBoundary ? v : v - 1);
+	m_unknowns = std::max(0, vertexCount() - (m_fixesBoundary ? 0 : 1));
+	const SparseCholesky::Matrix lower =
+		system.laplacian.bottomRightCorner(m_unknowns, m_unknowns).triangularView<Eigen::Lower>();
+	if (!m_system->factorize(lower))
+		throw SolverFailed(SolverFailed::Flow);
+}
+
+void LinearFlow::soften(double factor)
+{
+	m_softness *= factor;
+}
+
+LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
+{
+	vertices.clear();
+	Vertex pinned;
+	for (const Vertex v : m_row.indices()) {
+		if (m_row[v] >= 0)
+			vertices.push_back(v);
+		else if (!m_fixesBoundary)
+			pinned = v;
+	}
+	const auto ofVertices = [&](const VertexVector& values) {
+		VertexVector result(values.size() == 0 ? 0 : vertices.size());
+		if (values.size() > 0)
+			for (const Vertex v : vertices.indices())
+				result[v] = values[vertices[v]];
+		return result;
+	};
+
+	LinearSystem result;
+	result.fixesBoundary = m_fixesBoundary;
+	result.laplacian = m_hessian->hessian().matrix().selfadjointView<Eigen::Lower>();
+	result.curvature = ofVertices(m_curvature);
+	result.area = ofVertices(m_area);
+	result.factor = ofVertices(m_factor);
+	result.sink = ofVertices(m_sink);
+	if (!pinned.isValid()) {
+		result.area /= result.area.sum();
+		return result;
+	}
+	// What a row lacks to 0 is the weight of the edge to the vertex that is left out.
+	VertexVector share = result.laplacian * Eigen::VectorXd::Ones(vertices.size());
+	for (const Vertex v : share.indices()) {
+		double& diagonal = result.laplacian.coeffRef(v.number(), v.number());
+		if (share[v] < kNoEdge * diagonal)
+			share[v] = 0.0;
+		diagonal -= share[v];
+	}
+	if (share.sum() > 0.0)
+		share /= share.sum();
+	result.curvature += m_curvature[pinned] * share;
+	result.area += m_area[pinned] * share;
+	if (m_sink.size() > 0)
+		result.sink += m_sink[pinned] * share;
+	return result;
+}
+
+void LinearFlow::factorize()
+{
+	if (m_unfactored && m_unknowns > 0)
+		m_hessian->factorize(*m_unfactored);
+	m_unfactored.reset();
+}
+
+void LinearFlow::layOut(const EmbeddedSurface& surface, ConeBoundary boundary)
+{
+	m_hessian = std::make_shared<FactoredHessian>(
+		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
+		m_unfactored->scaleInvariant());
+	m_row = m_hessian->row();
+	m_unknowns = m_hessian->unknowns();
+	m_hessian->fill(*m_unfactored, 0.0);
+	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
+		m_sink = boundaryShares(surface);
+}
+
+VertexVector LinearFlow::factor(VertexVector k)
+{
+	k -= m_curvature;
+	if (m_factor.size() == 0)
+		return solve(k);
+	VertexVector u = m_factor + solve(k);
+	u.array() -= m_area.dot(u);
+	return u;
+}
+
+Eigen::MatrixXd LinearFlow::solve(Eigen::MatrixXd rhs)
+{
+	if (m_sink.size() > 0) // takes what the sum lacks
+		for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+			rhs.col(k) -= rhs.col(k).sum() * m_sink;
+	Eigen::MatrixXd u = solveRows(rhs);
+	for (Eigen::Index k = 0; k < u.cols(); ++k)
+		u.col(k).array() -= m_area.dot(u.col(k));
+	return u;
+}
+
+Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
+{
+	Eigen::MatrixXd phi = solveRows(m_area.asDiagonal() * u);
+	if (m_sink.size() > 0)
+		for (Eigen::Index k = 0; k < phi.cols(); ++k)
+			phi.col(k).array() -= m_sink.dot(phi.col(k));
+	return phi;
+}
+
+/// L^-1 rhs on the unknown vertices, 0 on the others.
+Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
+{
+	factorize();
+	// Entry by entry: expressions of rows cost more where there are few columns.
+	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
+	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				rows(m_row[v], k) = rhs(v.number(), k);
+	if (m_unknowns > 0)
+		rows = m_softness * (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
+	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+		for (const Vertex v : m_row.indices())
+			x(v.number(), k) = m_row[v] >= 0 ? rows(m_row[v], k) : 0.0;
+	return x;
+}
+
+void LinearFlow::computeAreas(const CurvatureMap& map)
+{
+	const Triangulation& t = map.triangulation();
+	m_area.setZero(t.vertexCount());
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const double area = 0.5 * map.lengths()[h[0].edge()] * map.lengths()[h[2].edge()] *
+							std::sin(map.angles()[h[0]]);
+		for (const Halfedge side : h)
+			m_area[t.origin(side)] += area / 3.0;
+	}
+	m_area /= m_area.sum();
+}
+
+VertexVector boundaryShares(const EmbeddedSurface& surface)
+{
+	const Triangulation& t = surface.triangulation;
+	double perimeter = 0.0;
+	int edges = 0;
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		perimeter += surface.lengths[h.edge()];
+		++edges;
+	}
+	VertexVector shares = VertexVector::Zero(t.vertexCount());
+	for (const Halfedge h : t.exteriorHalfedges())
+		for (const Vertex v : {t.origin(h), t.target(h)})
+			shares[v] +=
+				0.5 * (perimeter > 0.0 ? surface.lengths[h.edge()] / perimeter : 1.0 / edges);
+	return shares;
+}
+
+namespace {
+
+/// \p values taken together by aggregate, each with its \p weight.
+VertexVector
+sums(const Aggregation& aggregation, const VertexVector& values, const VertexVector& weight)
+{
+	VertexVector result = VertexVector::Zero(aggregation.root.size());
+	for (const Vertex v : values.indices())
+		result[Vertex(aggregation.aggregate[v.number()])] += weight[v] * values[v];
+	return result;
+}
+
+LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
+{
+	const VertexVector one = VertexVector::Ones(fine.area.size());
+	LinearSystem coarse;
+	coarse.fixesBoundary = fine.fixesBoundary;
+	coarse.laplacian = restricted(fine.laplacian, aggregation);
+	coarse.curvature = sums(aggregation, fine.curvature, one);
+	coarse.area = sums(aggregation, fine.area, one);
+	if (fine.sink.size() > 0)
+		coarse.sink = sums(aggregation, fine.sink, one);
+	if (fine.factor.size() > 0)
+		coarse.factor = sums(aggregation, fine.factor, fine.area).cwiseQuotient(coarse.area);
+	return coarse;
+}
+
+/// What takes the curvature from \p system, that which is missing from the sum of a closed surface by area.
+VertexVector flattening(const LinearSystem& system)
+{
+	VertexVector rhs = -system.curvature;
+	if (system.sink.size() > 0)
+		rhs -= rhs.sum() * system.sink;
+	else if (!system.fixesBoundary)
+		rhs -= rhs.sum() * system.area;
+	return rhs;
+}
+
+double rootMeanSquare(const LinearSystem& system, VertexVector u)
+{
+	u.array() -= system.area.dot(u);
+	return std::sqrt(system.area.dot(u.cwiseProduct(u)));
+}
+
+/// Functions that are constant on aggregates are about so much stiffer, whatever the surface.
+constexpr double kStiffer = 3.0;
+
+/// Steps of conjugate gradients that find the size of a solution, and the residual that ends them.
+constexpr int kMaxSizeSteps = 50;
+constexpr double kSizeAccuracy = 0.03;
+
+/// Their preconditioner: the diagonal and, for what is smooth, the equation on aggregates.
+class TwoLevels
+{
+public:
+	void attach(const LinearSystem& fine, const Array<int>& aggregate, LinearFlow& coarse)
+	{
+		m_diagonal = fine.laplacian.diagonal();
+		m_aggregate = &aggregate;
+		m_coarse = &coarse;
+	}
+
+	template<class Any>
+	TwoLevels& compute(const Any&)
+	{
+		return *this;
+	}
+	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
+	{
+		checkpoint();
+		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
+		for (const int v : m_aggregate->indices())
+			sums[Vertex((*m_aggregate)[v])] += rest[v];
+		// Of the two solutions the one that is symmetric: no mean is taken off.
+		const VertexVector smooth = m_coarse->gradient(sums.cwiseQuotient(m_coarse->area()));
+		Eigen::VectorXd solution = rest.cwiseQuotient(m_diagonal);
+		for (const int v : m_aggregate->indices())
+			solution[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
+		return solution;
+	}
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+
+private:
+	Eigen::VectorXd m_diagonal;
+	const Array<int>* m_aggregate = nullptr;
+	LinearFlow* m_coarse = nullptr;
+};
+
+/// Less curvature than this in all, radians, is one of rounding.
+constexpr double kNoCurvature = 1e-6;
+
+/// Size of the factors that flatten the surface over that on aggregates: to about a percent, and to some percent
+/// where vertices have been taken together several times, which is a worse preconditioner.
+double softnessOf(
+	const LinearSystem& fine,
+	const Array<int>& aggregate,
+	const LinearSystem& onAggregates,
+	LinearFlow& coarse)
+{
+	const VertexVector rhs = flattening(fine);
+	if (rhs.lpNorm<1>() < kNoCurvature)
+		return kStiffer;
+	Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, TwoLevels>
+		gradients;
+	gradients.preconditioner().attach(fine, aggregate, coarse);
+	gradients.setTolerance(kSizeAccuracy);
+	gradients.setMaxIterations(kMaxSizeSteps);
+	gradients.compute(fine.laplacian);
+	const double size = rootMeanSquare(fine, gradients.solve(rhs));
+	const double smaller = rootMeanSquare(onAggregates, coarse.solve(flattening(onAggregates)));
+	const double softness = size / smaller;
+	return softness > 0.0 && std::isfinite(softness) ? softness : kStiffer;
+}
+
+/// Takes the vertices of \p system together until there are at most so many. \return the aggregate of each
+Array<int> coarsen(LinearSystem& system, int vertices, VertexArray<Vertex>& roots)
+{
+	Array<int> aggregate(roots.size());
+	std::iota(aggregate.begin(), aggregate.end(), 0);
+	while (roots.size() > vertices) {
+		const Aggregation aggregation = aggregated(system.laplacian);
+		if (aggregation.root.size() == roots.size())
+			break;
+		system = coarser(system, aggregation);
+		VertexArray<Vertex> kept;
+		for (const int root : aggregation.root)
+			kept.push_back(roots[Vertex(root)]);
+		roots = std::move(kept);
+		for (int& a : aggregate)
+			a = aggregation.aggregate[a];
+	}
+	return aggregate;
+}
+
+} // namespace
+
+LinearFlow onAggregates(const LinearSystem& whole, int vertices, VertexArray<Vertex>& roots)
+{
+	LinearSystem system = whole;
+	const Array<int> aggregate = coarsen(system, vertices, roots);
+	LinearFlow coarse(system);
+	coarse.soften(softnessOf(whole, aggregate, system, coarse));
+	return coarse;
+}
+
+} // namespace ricci

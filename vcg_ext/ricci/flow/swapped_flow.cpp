@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "swapped_flow.h"
+
+#include "../base/task.h"
+#include "../error.h"
+#include "flow_run.h"
+#include "../base/points.h"
+#include "../metric/euclidean.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// An edge that is swapped this often is left alone: nothing proves that the swaps end.
+constexpr int kMaxSwapsOfOneEdge = 4;
+
+/// Starts of the flow that the splitting of boundary edges may ask for.
+constexpr int kMaxStarts = 20;
+
+/// Edges of the flow's triangulation that are not edges of the component: swapped, or at a vertex
+/// that a split has added.
+EdgeArray<char>
+foreignEdges(const Triangulation& beforeSwaps, EdgeArray<char> swapped, int componentVertices)
+{
+	swapped.resize(beforeSwaps.edgeCount(), 0);
+	for (const Edge e : beforeSwaps.edges()) {
+		const auto [i, j] = beforeSwaps.ends(e);
+		if (std::max(i, j).number() >= componentVertices)
+			swapped[e] = 1;
+	}
+	return swapped;
+}
+
+} // namespace
+
+EdgeSwapper::EdgeSwapper(const VertexArray<Point3>& positions, VertexArray<double> initialRadii) :
+		m_positions(positions), m_initialRadii(std::move(initialRadii))
+{
+}
+
+bool EdgeSwapper::operator()(CurvatureMap& map)
+{
+	const Triangulation& t = map.triangulation();
+	m_swapped.resize(t.edgeCount(), 0);
+	m_timesSwapped.resize(t.edgeCount(), 0);
+	m_toSplit.clear();
+	if (map.brokenTriangles() == 0)
+		return false;
+
+	m_touched.assign(t.faceCount(), 0);
+	std::vector<Halfedge> longestEdges;
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto length = [&](Halfedge g) { return map.lengths()[g.edge()]; };
+		const Halfedge longest = *std::max_element(
+			h.begin(), h.end(), [&](Halfedge a, Halfedge b) { return length(a) < length(b); });
+		// The angle opposite the longest edge of a broken triangle is the constant pi, its others
+		// 0.
+		if (map.angles()[t.next(longest)] == 0.0 && map.angles()[longest] == 0.0)
+			longestEdges.push_back(longest);
+	}
+	bool changed = false;
+	for (const Halfedge h : longestEdges) {
+		const Edge e = h.edge();
+		if (t.isBoundary(e)) {
+			m_toSplit.push_back(e);
+			continue;
+		}
+		const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
+		if (!t.isFlippable(e) || k == l || m_timesSwapped[e] >= kMaxSwapsOfOneEdge)
+			continue;
+		// Two broken triangles may share their longest edge, or one may just have been changed.
+		char& left = m_touched[t.face(e.halfedge())];
+		char& right = m_touched[t.face(e.halfedge().twin())];
+		if (left || right)
+			continue;
+		left = right = 1;
+		// Circles that overlap by more than a right angle (I < 0) would end the convexity.
+		const double delta = Euclidean::delta(
+			distance(m_positions[k], m_positions[l]), m_initialRadii[k], m_initialRadii[l]);
+		map.swapEdge(e, std::max(delta, -1.0));
+		m_swapped[e] = 1;
+		++m_timesSwapped[e];
+		++m_swaps;
+		changed = true;
+	}
+	return changed;
+}
+
+SplitMesh::SplitMesh(const Component& component) :
+		m_positions(component.positions), m_triangles(component.triangles),
+		m_corner(3 * component.triangles.size())
+{
+	for (const Corner c : m_corner.indices())
+		m_corner[c] = c;
+}
+
+void SplitMesh::split(const Triangulation& t, std::vector<Edge> edges)
+{
+	std::sort(edges.begin(), edges.end());
+	edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+	FaceArray<char> touched(t.faceCount(), 0);
+	for (const Edge e : edges) {
+		const Halfedge h = t.isExterior(e.halfedge()) ? e.halfedge().twin() : e.halfedge();
+		const Face f = t.face(h);
+		if (touched[f])
+			continue;
+		touched[f] = 1;
+		const Triangle& corners = m_triangles[positionOf(f)];
+		const auto side = std::find(corners.begin(), corners.end(), t.origin(h).number());
+		splitSide(f.number(), static_cast<int>(side - corners.begin()));
+		++m_splits;
+	}
+}
+
+void SplitMesh::splitSide(int triangle, int side)
+{
+	Triangle& t = m_triangles[positionOf(triangle)];
+	const int i = t[positionOf(side)], j = t[positionOf((side + 1) % 3)];
+	const int apex = t[positionOf((side + 2) % 3)];
+	const int middle = m_positions.size(), added = static_cast<int>(m_triangles.size());
+	const Point3 &a = m_positions[Vertex(i)], &b = m_positions[Vertex(j)];
+	m_positions.push_back(0.5 * (a + b));
+	t = {i, middle, apex};
+	m_triangles.push_back({middle, j, apex});
+	// The triangle now starts at i; its corner at j is one of the added triangle.
+	const Corner first(triangle, side);
+	for (Corner& c : m_corner)
+		if (c.face() == triangle)
+			c = c == first.next() ? Corner(added, 1) : Corner(triangle, c == first ? 0 : 2);
+}
+
+Halfedge SplitMesh::corner(const Triangulation& t, Corner c) const
+{
+	return t.halfedges(Face(m_corner[c].face()))[m_corner[c].index()];
+}
+
+SwappedFlow flowWithEdgeSwaps(
+	const Component& component,
+	const FlowOptions& options,
+	const ChooseTarget& chooseTarget,
+	std::vector<FlowState>& states)
+{
+	SplitMesh mesh(component);
+	SwappedFlow result;
+	int steps = 0;
+	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
+		EmbeddedSurface& surface = result.domain.surface;
+		surface = embeddedSurface(mesh.positions(), mesh.triangles());
+		const Triangulation& t = surface.triangulation;
+		InitialPacking start = initialPacking(surface, options);
+		const Target target = chooseTarget(surface, start);
+		EdgeSwapper swapper(surface.positions, start.radii);
+		FlowProgress progress(options.epsilon, states);
+		FlowRun run(surface, std::move(start), target, options, progress);
+		run.operate([&](CurvatureMap& map) { return swapper(map); });
+		try {
+			if (!run.solve())
+				throw run.failure();
+			result.flow = run.result();
+			steps += result.flow.iterations;
+		}
+		catch (NotConverged& error) {
+			error.swaps = swapper.swaps();
+			// A boundary that does not settle on a circle asks for no split.
+			if (error.problem == NotConverged::CircleUnsettled ||
+				swapper.boundaryEdgesToSplit().empty())
+				throw;
+			steps += error.iterations;
+		}
+		result.swaps += swapper.swaps();
+		// Also where the target is reached: a swap beside the broken triangle may have mended it.
+		if (!swapper.boundaryEdgesToSplit().empty()) {
+			mesh.split(t, swapper.boundaryEdgesToSplit());
+			logLine(
+				std::to_string(mesh.splits()) + " boundary edges split; the flow starts again.");
+			continue;
+		}
+		result.flow.iterations = steps;
+		result.splits = mesh.splits();
+		if (result.swaps > 0 || result.splits > 0)
+			result.domain.isForeign =
+				foreignEdges(t, swapper.swapped(), component.positions.size());
+		if (result.splits > 0)
+			for (const Face f : component.face.indices())
+				result.domain.corners.push_back(
+					{mesh.corner(t, {f.number(), 0}),
+					 mesh.corner(t, {f.number(), 1}),
+					 mesh.corner(t, {f.number(), 2})});
+		return result;
+	}
+	throw NotConverged(NotConverged::SplitsUsedUp, positionOf(mesh.splits()));
+}
+
+} // namespace ricci

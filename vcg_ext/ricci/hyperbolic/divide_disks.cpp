@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "divide_disks.h"
+
+#include "../base/floating_point.h"
+#include "../base/task.h"
+#include "../base/tolerances.h"
+#include "../layout/hyperbolic_layout.h"
+#include "../base/shortest_paths.h"
+#include "../charts/chart_division.h"
+#include "../charts/separate_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Some triangles of a chart, and their Voronoi cells.
+struct Cells
+{
+	std::vector<int> centre;
+	std::vector<ExtendedIsometry> place; ///< [cell] moves its middle to 0, but that of the first
+	Array<int> of;                       ///< [triangle] number
+	Array<double> distance; ///< [triangle] from the centre, on the way through the chart
+};
+
+Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
+{
+	Array<std::complex<double>> middle; // [triangle]
+	for (const int f : chart.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		middle.push_back(
+			static_cast<std::complex<double>>(toMiddle(chart, {f}).inverse().origin()));
+	}
+	if (centre.empty()) {
+		centre.push_back(0);
+		for (const int f : chart.points.indices())
+			if (std::abs(middle[f]) < std::abs(middle[centre[0]]))
+				centre[0] = f;
+	}
+	Cells cells{
+		std::move(centre), {{}}, Array<int>(chart.size(), 0), Array<double>(chart.size(), 0.0)};
+	SearchFront<int, int> front(chart.size());
+	for (std::size_t i = 0; i < cells.centre.size(); ++i) {
+		cells.of[cells.centre[i]] = static_cast<int>(i);
+		front.offer(cells.centre[i], 0.0);
+	}
+	std::vector<std::vector<int>> triangles(cells.centre.size());
+	for (int f = front.next(); f >= 0; f = front.next()) {
+		if (const int from = front.parent(f); from >= 0)
+			cells.of[f] = cells.of[from];
+		cells.distance[f] = front[f];
+		triangles[positionOf(cells.of[f])].push_back(f);
+		for (const Corner side : cornersOf(f))
+			if (const Corner other = chart.joined(side); other.isValid()) {
+				const double chord = chordLength(middle[f], middle[other.face()]);
+				front.offer(other.face(), front[f] + 2.0 * std::asinh(0.5 * chord), f);
+			}
+	}
+	for (std::size_t i = 1; i < triangles.size(); ++i)
+		cells.place.push_back(toMiddle(chart, triangles[i]));
+	return cells;
+}
+
+/// Of each cell the triangle farthest from its centre of those that floats cannot hold, but could near 0.
+std::vector<int>
+farthestInvalid(const FlatMesh& chart, const Cells& cells, const Validity& validity)
+{
+	const auto isValid = [&](int f, const ExtendedIsometry& place) {
+		Triangle2 p = chart.at(f);
+		for (Point2& corner : p)
+			corner = moved(place, corner);
+		return validity.isValid(p);
+	};
+	std::vector<int> farthest(cells.centre.size(), -1);
+	for (const int f : chart.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		const std::size_t cell = positionOf(cells.of[f]);
+		int& far = farthest[cell];
+		if ((far < 0 || cells.distance[f] > cells.distance[far]) && f != cells.centre[cell] &&
+			!isValid(f, cells.place[cell]) && isValid(f, toMiddle(chart, {f})))
+			far = f;
+	}
+	farthest.erase(std::remove(farthest.begin(), farthest.end(), -1), farthest.end());
+	return farthest;
+}
+
+} // namespace
+
+Validity diskValidity(std::size_t disks)
+{
+	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
+	const double height = kMinFloatSteps * (2.0 * perRow * floatStep(1.0));
+	return {height, kWantedHeights * height};
+}
+
+bool divideDisks(Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	std::size_t disks = map.charts.size();
+	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(disks);
+	std::vector<Cells> cells(disks); // [chart] without centres where it is not looked at
+	bool endsEarly = false;
+	for (bool grows = true; grows && !endsEarly;) {
+		grows = false;
+		const bool isFull = disks >= kMaxDisks;
+		const Validity validity = diskValidity(disks);
+		for (std::size_t c = 0; c < triangles.size(); ++c) {
+			const bool isValid = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
+				return validity.isValid(mesh.at(f));
+			});
+			if (isValid)
+				continue;
+			const FlatMesh chart = mesh.part(triangles[c]);
+			if (cells[c].centre.empty())
+				cells[c] = cellsOf(chart, {});
+			std::vector<int> more = farthestInvalid(chart, cells[c], validity);
+			if (more.empty())
+				continue;
+			if (isFull) {
+				endsEarly = true;
+				break;
+			}
+			grows = true;
+			disks += more.size();
+			more.insert(more.begin(), cells[c].centre.begin(), cells[c].centre.end());
+			cells[c] = cellsOf(chart, std::move(more));
+		}
+	}
+	if (endsEarly) {
+		++map.report.endedEarly;
+		logLine(
+			"The division of disks has ended at " + std::to_string(disks) +
+			": triangles are left that floats cannot hold.");
+	}
+	if (disks == map.charts.size())
+		return false;
+	const Seams before = seams(mesh);
+	for (std::size_t c = 0; c < triangles.size(); ++c) {
+		const int more = static_cast<int>(map.charts.size()) - 1;
+		for (std::size_t i = 0; i < triangles[c].size() && cells[c].centre.size() > 1; ++i)
+			if (const int cell = cells[c].of[static_cast<int>(i)]; cell > 0)
+				mesh.chart[triangles[c][i]] = more + cell;
+		for (std::size_t i = 1; i < cells[c].centre.size(); ++i)
+			map.charts.push_back({{}, {}, static_cast<int>(c), cells[c].place[i]});
+	}
+	splitPoints(mesh);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);
+	countCuts(before, map);
+	map.report.charts = static_cast<int>(map.charts.size());
+	return true;
+}
+
+bool separateDisks(Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	const double touching = diskValidity(map.charts.size()).height / kMinFloatSteps;
+	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(map.charts.size());
+	const std::size_t disks = triangles.size();
+	std::vector<ExtendedIsometry> places(disks); // [chart] moves the points there
+	Seams before;
+	for (std::size_t c = 0; c < disks; ++c) {
+		checkpoint();
+		const FlatMesh chart = mesh.part(triangles[c]);
+		const OverlapSearch overlaps(chart, touching);
+		if (overlaps.pairs().empty())
+			continue;
+		if (map.charts.size() == disks)
+			before = seams(mesh);
+		std::vector<std::vector<int>> parts = divideChart(chart, overlaps);
+		std::iter_swap(
+			parts.begin(),
+			std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+				return a.size() < b.size();
+			}));
+		const int middle = map.charts[c].middle < 0 ? static_cast<int>(c) : map.charts[c].middle;
+		for (std::size_t i = 1; i < parts.size() && map.charts.size() < kMaxDisks; ++i) {
+			for (const int f : parts[i])
+				mesh.chart[triangles[c][positionOf(f)]] = static_cast<int>(map.charts.size());
+			places.push_back(toMiddle(chart, parts[i]));
+			map.charts.push_back({{}, {}, middle, places.back() * map.charts[c].place});
+		}
+	}
+	if (map.charts.size() == disks)
+		return false;
+	splitPoints(mesh);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		if (positionOf(chart[p]) >= disks)
+			mesh.place[p] = moved(places[positionOf(chart[p])], mesh.place[p]);
+	countCuts(before, map);
+	map.report.charts = static_cast<int>(map.charts.size());
+	return true;
+}
+
+} // namespace ricci

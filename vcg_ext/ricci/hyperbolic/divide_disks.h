@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_DIVIDE_DISKS_H
+#define RICCI_DIVIDE_DISKS_H
+
+#include "../optimize/validity.h"
+#include "../layout/parametrization.h"
+
+#include <cstddef>
+
+namespace ricci {
+
+/// What a triangle must be in the unit disk, so that floats hold it where so many disks are placed in the square.
+Validity diskValidity(std::size_t disks);
+
+/// Divides the charts in the Poincaré disk that reach too far out for floats: a triangle at the distance r from
+/// 0 is drawn e^r times smaller than at 0. The parts are the Voronoi cells of some triangles, the first of which
+/// lies in the middle, by the distance in the chart; a new one is added where floats cannot hold a triangle,
+/// though they would near 0. The part in the middle keeps the place and the number of the chart. Each other one
+/// is a chart in a disk of its own with its middle at 0, see Chart::place. The report counts the charts, and the
+/// cuts between them as separateCharts() does.
+/// \param map before placeDisks()
+/// \return whether charts were divided
+bool divideDisks(Parametrization& map);
+
+/// Divides the charts in the Poincaré disk that overlap themselves as straight triangles, as separateCharts() does
+/// in the plane. The largest part keeps its place, each other one has a disk of its own with its middle at 0.
+/// \return whether charts were divided
+bool separateDisks(Parametrization& map);
+
+/// Where a mesh has so many disks, none is divided further: their squares get too small.
+constexpr int kMaxDisks = 256;
+
+} // namespace ricci
+
+#endif

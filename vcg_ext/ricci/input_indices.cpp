@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "input_indices.h"
+
+#include "base/adjacency.h"
+#include "measure/distortion.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Takes the means over the copies of each vertex of the input, weighted by the area of their faces.
+/// \param vertexCount of the input
+/// \param values [vertex of the opened mesh, and more that are kept as they are]
+void averageCopies(const OpenedMesh& opened, std::size_t vertexCount, std::vector<double>& values)
+{
+	std::vector<double> ofCopies(opened.vertex.size(), 0.0); // areas
+	for (const Triangle& t : opened.mesh.triangles) {
+		const double area = triangleArea(
+			{opened.mesh.positions[positionOf(t[0])],
+			 opened.mesh.positions[positionOf(t[1])],
+			 opened.mesh.positions[positionOf(t[2])]});
+		for (const int v : t)
+			ofCopies[positionOf(v)] += area;
+	}
+	std::vector<double> sum(vertexCount, 0.0), area(vertexCount, 0.0);
+	for (std::size_t c = 0; c < ofCopies.size(); ++c) {
+		const std::size_t v = positionOf(opened.vertex[c]);
+		sum[v] += ofCopies[c] * values[c];
+		area[v] += ofCopies[c];
+	}
+	for (std::size_t v = 0; v < vertexCount; ++v)
+		if (area[v] > 0.0)
+			values[v] = sum[v] / area[v];
+	values.erase(
+		values.begin() + static_cast<std::ptrdiff_t>(vertexCount),
+		values.begin() + static_cast<std::ptrdiff_t>(ofCopies.size()));
+}
+
+/// Lays degenerate faces out beside the triangles that a map has.
+class DegenerateFaces
+{
+public:
+	DegenerateFaces(const SurfaceMesh& input, FlatMesh& mesh) :
+			m_input(input), m_mesh(mesh),
+			m_corners(static_cast<int>(input.positions.size()), [&](const auto& add) {
+				for (const int f : mesh.vertices.indices())
+					for (const Corner c : cornersOf(f))
+						if (const int v = mesh.vertices[c]; positionOf(v) < input.positions.size())
+							add(v, c);
+			})
+	{
+	}
+
+	void layOut(int face)
+	{
+		const Triangle& t = m_input.triangles[positionOf(face)];
+		const auto at = [&](std::size_t k) { return m_input.positions[positionOf(t[k])]; };
+		const Corners corners = cornersFor(t);
+		Triangle points{-1, -1, -1};
+		for (std::size_t k = 0; k < 3; ++k) {
+			if (corners[k].isValid() && m_mesh.vertices[corners[k]] == t[k])
+				points[k] = m_mesh.points[corners[k]];
+			for (std::size_t j = 0; j < k; ++j)
+				if (t[j] == t[k])
+					points[k] = points[j];
+			if (points[k] >= 0)
+				continue;
+			points[k] = m_mesh.place.size();
+			m_mesh.place.push_back(corners[k].isValid() ? m_mesh.at(corners[k]) : Point2{0.0, 0.0});
+		}
+		m_mesh.vertices.push_back(t);
+		m_mesh.points.push_back(points);
+		m_mesh.lengths.push_back(
+			{distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
+		m_mesh.face.push_back(face);
+		m_mesh.chart.push_back(-1);
+	}
+
+private:
+	using Corners = std::array<Corner, 3>;
+
+	/// Corners of one face of the map at whose places the corners of a degenerate face lie; or none.
+	Corners cornersFor(const Triangle& t) const
+	{
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+			if (t[next] == t[k])
+				continue;
+			for (const Corner p : m_corners[t[k]])
+				for (const Corner q : m_corners[t[next]])
+					if (m_mesh.face[p.face()] == m_mesh.face[q.face()]) {
+						Corners line;
+						line[k] = p;
+						line[next] = q;
+						line[last] = t[last] == t[k] ? p : q;
+						return line;
+					}
+		}
+		for (const int v : t)
+			for (const Corner corner : m_corners[v])
+				return {corner, corner, corner};
+		return {};
+	}
+
+	const SurfaceMesh& m_input;
+	FlatMesh& m_mesh;
+	Adjacency<int, Corner> m_corners; // [vertex of the input]
+};
+
+/// Swaps two corners of the triangles of reversed faces.
+void orientLikeInput(const OpenedMesh& opened, FlatMesh& mesh)
+{
+	for (const int f : mesh.face.indices())
+		if (opened.reversed[Face(mesh.face[f])]) {
+			std::swap(mesh.vertices[f][1], mesh.vertices[f][2]);
+			std::swap(mesh.points[f][1], mesh.points[f][2]);
+			std::swap(mesh.lengths[f][0], mesh.lengths[f][2]);
+		}
+}
+
+/// Puts the triangles in the order of the faces that they are or lie in.
+void sortByFace(std::size_t faceCount, FlatMesh& mesh)
+{
+	const Adjacency<int, int> trianglesOf(static_cast<int>(faceCount), [&](const auto& add) {
+		for (const int f : mesh.face.indices())
+			add(mesh.face[f], f);
+	});
+	const auto sort = [&](auto& ofTriangles) {
+		auto sorted = ofTriangles;
+		int next = 0;
+		for (const int f : trianglesOf.items())
+			sorted[next++] = ofTriangles[f];
+		ofTriangles.swap(sorted);
+	};
+	sort(mesh.vertices);
+	sort(mesh.points);
+	sort(mesh.lengths);
+	sort(mesh.chart);
+	sort(mesh.face);
+}
+
+} // namespace
+
+void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	mesh.across.clear();
+	orientLikeInput(opened, mesh);
+	if (opened.isAsGiven()) {
+		sortByFace(input.triangles.size(), mesh);
+		return;
+	}
+	const std::size_t vertexCount = input.positions.size();
+	const std::size_t copies = opened.vertex.size() - vertexCount;
+	averageCopies(opened, vertexCount, map.vertexQC);
+	map.u.resize(vertexCount);
+	map.targetCurvature.resize(vertexCount);
+	for (int& v : map.placedCones)
+		v = opened.vertex[positionOf(v)];
+	for (Triangle& t : mesh.vertices)
+		for (int& v : t)
+			v = positionOf(v) < opened.vertex.size() ? opened.vertex[positionOf(v)]
+													 : v - static_cast<int>(copies);
+	std::vector<SurfacePoint>& source = mesh.source.values();
+	const auto first = source.begin() + static_cast<std::ptrdiff_t>(vertexCount);
+	source.erase(first, first + static_cast<std::ptrdiff_t>(copies));
+	for (SurfacePoint& p : source)
+		for (int& v : p.vertex)
+			v = opened.vertex[positionOf(v)];
+	for (int& f : mesh.face)
+		f = opened.face[positionOf(f)];
+	DegenerateFaces degenerate(input, mesh);
+	for (const int f : opened.degenerate)
+		degenerate.layOut(f);
+	sortByFace(input.triangles.size(), mesh);
+}
+
+} // namespace ricci

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_domain.h"
+
+#include "../base/tolerances.h"
+#include "../base/points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>& positions)
+{
+	EdgeArray<double> lengths(t.edgeCount());
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		lengths[e] = distance(positions[i], positions[j]);
+	}
+	return lengths;
+}
+
+EmbeddedSurface
+embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles)
+{
+	EmbeddedSurface surface;
+	surface.triangulation = Triangulation(positions.size(), triangles);
+	surface.lengths = edgeLengths(surface.triangulation, positions);
+	surface.topology = topologyOf(surface.triangulation);
+	surface.positions = std::move(positions);
+	return surface;
+}
+
+namespace {
+
+/// The edges with a marked side; empty without marks.
+EdgeArray<char> edgesOf(const Triangulation& t, const std::vector<std::array<char, 3>>& sides)
+{
+	EdgeArray<char> edges;
+	if (sides.empty())
+		return edges;
+	edges.assign(t.edgeCount(), 0);
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k)
+			if (sides[positionOf(f)][k])
+				edges[t.halfedges(f)[k].edge()] = 1;
+	return edges;
+}
+
+/// Centre of mass of a boundary loop; the mean of its points where it has no length.
+Point3 centreOf(const EmbeddedSurface& surface, Halfedge first)
+{
+	const Triangulation& t = surface.triangulation;
+	std::vector<Halfedge> loop;
+	for (const Halfedge h : t.loop(first))
+		loop.push_back(h);
+	Point3 centre{0, 0, 0}, mean{0, 0, 0};
+	double length = 0.0;
+	for (const Halfedge h : loop) {
+		const Point3 &p = surface.positions[t.origin(h)], &q = surface.positions[t.target(h)];
+		const double side = surface.lengths[h.edge()];
+		length += side;
+		centre += 0.5 * side * (p + q);
+		mean += p / static_cast<double>(loop.size());
+	}
+	return length > 0.0 ? centre / length : mean;
+}
+
+/// The length up to which a loop is short.
+double maxShortLength(const EmbeddedSurface& surface)
+{
+	const Triangulation& t = surface.triangulation;
+	double area = 0.0;
+	for (const Face f : t.faces()) {
+		const auto [a, b, c] = t.vertices(f);
+		const Point3& p = surface.positions[a];
+		area += 0.5 * length(cross(surface.positions[b] - p, surface.positions[c] - p));
+	}
+	return kShortHole * std::sqrt(area) / std::max(1, 2 * surface.topology.type.genus - 2);
+}
+
+} // namespace
+
+std::vector<Halfedge>
+loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes)
+{
+	const Triangulation& t = surface.triangulation;
+	const bool areShort = holes == Holes::ShortCapped;
+	const double maxLength =
+		areShort ? maxShortLength(surface) : std::numeric_limits<double>::infinity();
+	std::vector<Halfedge> loops;
+	Halfedge longest;
+	double longestLength = -1.0;
+	for (const Halfedge first : t.boundaryLoops()) {
+		double length = 0.0;
+		bool isMarked = true;
+		for (const Halfedge h : t.loop(first)) {
+			length += surface.lengths[h.edge()];
+			isMarked &= isHole.empty() || isHole[h.edge()];
+		}
+		if (length > longestLength) {
+			longestLength = length;
+			longest = first;
+		}
+		if (isMarked && length <= maxLength)
+			loops.push_back(first);
+	}
+	if (isHole.empty() && !areShort)
+		loops.erase(std::remove(loops.begin(), loops.end(), longest), loops.end());
+	return loops;
+}
+
+void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	domain.onHole.assign(t.vertexCount(), 0);
+	domain.holes = static_cast<int>(loops.size());
+	if (loops.empty())
+		return;
+	VertexArray<Point3> positions = domain.surface.positions;
+	std::vector<Triangle> triangles;
+	for (const Face f : t.faces()) {
+		const auto [a, b, c] = t.vertices(f);
+		triangles.push_back({a.number(), b.number(), c.number()});
+	}
+	for (const Halfedge first : loops) {
+		const int centre = positions.size();
+		positions.push_back(centreOf(domain.surface, first));
+		for (const Halfedge h : t.loop(first)) { // in the direction of the side of the cap there
+			domain.onHole[t.origin(h)] = 1;
+			triangles.push_back({t.origin(h).number(), t.target(h).number(), centre});
+		}
+	}
+	domain.capped = embeddedSurface(std::move(positions), triangles);
+}
+
+DoubleSurface doubleOf(const Triangulation& t)
+{
+	const int faceCount = t.faceCount();
+	const VertexArray<char> boundary = t.boundaryVertices();
+	DoubleSurface d;
+	int vertexCount = t.vertexCount();
+	d.mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		d.mirror[v] = boundary[v] ? v : Vertex(vertexCount++);
+	d.mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		d.mirror[d.mirror[v]] = v;
+
+	// Side k of a face runs from corner k to k + 1; side 2 - k of its image mirrors it.
+	HalfedgeArray<Corner> side(t.halfedgeCount());
+	Array<Triangle> triangles(2 * faceCount);
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto v = t.vertices(f);
+		for (const Corner c : cornersOf(f.number())) {
+			side[h[c.index()]] = c;
+			triangles[c] = v[c.index()].number();
+		}
+		triangles[faceCount + f.number()] = {
+			d.mirror[v[0]].number(), d.mirror[v[2]].number(), d.mirror[v[1]].number()};
+	}
+	const auto image = [&](Corner c) {
+		return Corner(faceCount + c.face(), 2 - static_cast<int>(c.index()));
+	};
+	CornerArray<Corner> glued(6 * faceCount);
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const Corner s = side[h], across = side[h.twin()];
+		glued[s] = across.isValid() ? across : image(s);
+		glued[image(s)] = across.isValid() ? image(across) : s;
+	}
+	d.triangulation = Triangulation(vertexCount, triangles.values(), glued);
+
+	d.edgeOf.resize(d.triangulation.edgeCount());
+	for (const Face f : t.faces()) {
+		const auto h = d.triangulation.halfedges(f);
+		const auto mirrored = d.triangulation.halfedges(Face(faceCount + f.number()));
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Edge e = h[k].edge();
+			d.edgeOf[e] = e;
+			d.edgeOf[mirrored[2 - k].edge()] = e;
+		}
+	}
+	return d;
+}
+
+FlowDomain flowDomain(const Component& component, Holes holes)
+{
+	FlowDomain domain;
+	domain.surface = embeddedSurface(component.positions, component.triangles);
+	const Triangulation& t = domain.surface.triangulation;
+	domain.isDiagonal = edgesOf(t, component.diagonal);
+	std::vector<Halfedge> loops;
+	if (holes != Holes::Boundaries && !domain.surface.topology.type.isClosed())
+		loops = loopsToClose(domain.surface, edgesOf(t, component.hole), holes);
+	capHoles(loops, domain);
+	return domain;
+}
+
+} // namespace ricci

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "opened_mesh.h"
+
+#include "../base/tolerances.h"
+#include "../error.h"
+#include "../base/disjoint_sets.h"
+#include "face_gluing.h"
+#include "sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// One-sided components that so many loops have not made two-sided are cut wherever they need it.
+constexpr int kMaxOneSidedCuts = 64;
+
+/// "1 face was", "12 faces were".
+std::string counted(std::size_t n, const std::string& one, const std::string& many)
+{
+	return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// \throw InvalidMesh if \p count is not 0
+void requireNone(std::size_t count, InvalidMesh::Problem problem)
+{
+	if (count > 0)
+		throw InvalidMesh(problem, count);
+}
+
+void checkElements(const SurfaceMesh& mesh)
+{
+	if (mesh.triangles.empty()) {
+		const std::size_t vertices = mesh.positions.size() - mesh.absent;
+		throw InvalidMesh(vertices == 0 ? InvalidMesh::Empty : InvalidMesh::NoFaces, vertices);
+	}
+	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
+	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
+	const auto vertices = static_cast<int>(mesh.positions.size());
+	std::size_t damaged = 0, notFinite = 0, huge = 0;
+	for (const Triangle& t : mesh.triangles)
+		damaged += std::any_of(t.begin(), t.end(), [&](int v) { return v < 0 || v >= vertices; });
+	requireNone(damaged, InvalidMesh::DamagedFaces);
+	for (const Point3& p : mesh.positions)
+		notFinite += !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
+	requireNone(notFinite, InvalidMesh::NotFinite);
+	for (const Point3& p : mesh.positions)
+		huge += std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > kMaxCoordinate;
+	requireNone(huge, InvalidMesh::OutOfRange);
+}
+
+/// Opens one mesh, step by step.
+class Opening
+{
+public:
+	explicit Opening(const SurfaceMesh& input) : m_input(input), m_positions(input.positions)
+	{
+		for (std::size_t f = 0; f < input.triangles.size(); ++f) {
+			const Triangle& t = input.triangles[f];
+			if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+				m_opened.degenerate.push_back(static_cast<int>(f));
+			else {
+				m_opened.face.push_back(static_cast<int>(f));
+				m_triangles.push_back(t);
+			}
+		}
+	}
+
+	void cutEdges()
+	{
+		FaceGluing gluing = glueFaces(m_positions, m_triangles);
+		m_glued = std::move(gluing.glued);
+		m_opened.cutEdges = gluing.cutEdges;
+		m_opened.duplicateFaces = gluing.duplicateFaces;
+		do
+			splitVertices();
+		while (m_opened.cutEdges > 0 && !separateEdges());
+	}
+
+	/// Opens the seams that the caller wants.
+	/// \pre cutEdges()
+	void openSeams()
+	{
+		if (m_input.seam.empty())
+			return;
+		markHoles();
+		m_across.assign(m_glued.size(), Corner());
+		const auto isMarked = [&](Corner side) {
+			return m_input.seam[positionOf(m_opened.face[positionOf(side.face())])][side.index()] !=
+				   0;
+		};
+		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
+			bool opens = false;
+			if (std::any_of(edge.begin(), edge.end(), isMarked))
+				for (const Corner side : edge)
+					opens = open(side) || opens;
+			m_opened.seamEdges += opens;
+			m_opened.seamLength += opens ? lengthOf(edge[0]) : 0.0;
+		});
+		splitVertices();
+		lengthenLoneSeams();
+	}
+
+	void cutOneSidedComponents(OneSidedCut cut)
+	{
+		m_partition = partitionFaces(m_corners, m_glued);
+		m_opened.oneSidedComponents = static_cast<int>(
+			std::count(m_partition.isOneSided.begin(), m_partition.isOneSided.end(), 1));
+		for (int cuts = 0; !m_partition.contradicted.empty(); ++cuts) {
+			const bool isLast = cuts == kMaxOneSidedCuts;
+			cutOneSided(
+				m_places, m_corners, m_partition, isLast ? OneSidedCut::Everywhere : cut, m_glued);
+			do
+				splitVertices();
+			while (!separateEdges());
+			m_partition = partitionFaces(m_corners, m_glued);
+		}
+	}
+
+	/// \throw InvalidMesh TooSmall; NoArea if no component has an area
+	void leaveOutFlatComponents()
+	{
+		const Array<char> isFlat = flatComponents();
+		if (!isFlat.empty() && std::count(isFlat.begin(), isFlat.end(), 1) == 0)
+			return;
+		Array<int> number(m_triangles.size(), -1), kept;
+		for (const int f : m_triangles.indices())
+			if (isFlat[m_partition.component[f]])
+				m_opened.degenerate.push_back(m_opened.face[positionOf(f)]);
+			else {
+				number[f] = kept.size();
+				kept.push_back(f);
+			}
+		std::sort(m_opened.degenerate.begin(), m_opened.degenerate.end());
+		if (kept.empty())
+			throwNoArea();
+		const auto renumbered = [&](Corner c) {
+			const int face = c.isValid() ? number[c.face()] : -1;
+			return face < 0 ? Corner() : Corner(face, static_cast<int>(c.index()));
+		};
+		const auto keep = [&](auto& values) { // [face]
+			for (const int i : kept.indices())
+				values[positionOf(i)] = values[positionOf(kept[i])];
+			values.resize(positionOf(kept.size()));
+		};
+		const auto keepSides = [&](CornerArray<Corner>& sides) {
+			for (const int i : kept.indices())
+				for (const Corner c : cornersOf(i))
+					sides[c] = renumbered(sides[Corner(kept[i], static_cast<int>(c.index()))]);
+			sides.resize(3 * kept.size());
+		};
+		keep(m_triangles.values());
+		keep(m_opened.face);
+		keepSides(m_glued);
+		if (!m_across.empty()) {
+			keepSides(m_across);
+			keep(m_opened.hole);
+		}
+		splitVertices();
+		m_partition = partitionFaces(m_triangles, m_glued);
+	}
+
+	OpenedMesh result()
+	{
+		if (!m_across.empty()) {
+			countSplitWithoutSeams();
+			m_opened.hasSeam.assign(positionOf(m_partition.componentCount), 0);
+			for (const Corner side : m_across.indices())
+				if (m_across[side].isValid())
+					m_opened.hasSeam[positionOf(m_partition.component[side.face()])] = 1;
+		}
+		m_opened.mesh.positions = std::move(m_places.values());
+		m_opened.mesh.triangles = std::move(m_corners.values());
+		m_opened.component = FaceArray<int>(std::move(m_partition.component.values()));
+		m_opened.reversed = FaceArray<char>(std::move(m_partition.reversed.values()));
+		m_opened.componentCount = m_partition.componentCount;
+		m_opened.mesh.absent = m_input.absent;
+		if (!m_input.diagonal.empty())
+			for (const int f : m_opened.face)
+				m_opened.mesh.diagonal.push_back(m_input.diagonal[positionOf(f)]);
+		return std::move(m_opened);
+	}
+
+private:
+	/// The fans of glued corners.
+	DisjointSetsOf<Corner> fansOf(const CornerArray<Corner>& glued) const
+	{
+		DisjointSetsOf<Corner> fans(glued.size());
+		for (const Corner s : glued.indices()) {
+			const Corner t = glued[s];
+			if (t < s)
+				continue;
+			const bool sameWay = m_triangles[s] == m_triangles[t];
+			fans.merge(s, sameWay ? t : t.next());
+			fans.merge(s.next(), sameWay ? t.next() : t);
+		}
+		return fans;
+	}
+
+	/// Gives every fan of glued corners a vertex of its own: the first at a vertex the vertex itself,
+	/// the others copies.
+	void splitVertices()
+	{
+		DisjointSetsOf<Corner> fans = fansOf(m_glued);
+		m_places = m_positions;
+		m_corners = m_triangles;
+		m_opened.vertex.resize(m_input.positions.size());
+		std::iota(m_opened.vertex.begin(), m_opened.vertex.end(), 0);
+		CornerArray<int> copy(m_glued.size(), -1); // [fan]
+		Array<char> uses(m_positions.size(), 0);   // fans of each vertex: none, one, more
+		for (const Corner corner : m_glued.indices()) {
+			const int v = m_triangles[corner];
+			int& own = copy[fans.find(corner)];
+			if (own < 0 && uses[v] == 0) {
+				own = v;
+				uses[v] = 1;
+			}
+			else if (own < 0) {
+				own = m_places.size();
+				m_opened.vertex.push_back(v);
+				m_places.push_back(m_positions[v]);
+				uses[v] = 2;
+			}
+			m_corners[corner] = own;
+		}
+		m_opened.splitVertices = static_cast<int>(std::count(uses.begin(), uses.end(), 2));
+	}
+
+	/// The vertices that would have copies if the seams were glued.
+	void countSplitWithoutSeams()
+	{
+		CornerArray<Corner> glued = m_glued;
+		for (const Corner s : glued.indices())
+			if (m_across[s].isValid())
+				glued[s] = m_across[s];
+		DisjointSetsOf<Corner> fans = fansOf(glued);
+		Array<Corner> fanAt(m_positions.size()); // [vertex] the first that is met
+		std::set<int> split;
+		for (const Corner corner : glued.indices()) {
+			const int v = m_triangles[corner];
+			const Corner fan = fans.find(corner);
+			if (!fanAt[v].isValid())
+				fanAt[v] = fan;
+			if (fanAt[v] != fan)
+				split.insert(v);
+		}
+		m_opened.splitVertices = static_cast<int>(split.size());
+	}
+
+	/// Finds the sides of boundary loops other than the longest of each component.
+	void markHoles()
+	{
+		const FacePartition partition = partitionFaces(m_corners, m_glued);
+		DisjointSetsOf<Corner> loops = fansOf(m_glued); // of corners, joined along boundaries
+		std::vector<Corner> sides;                      // of boundaries
+		for (const Corner s : m_glued.indices())
+			if (!m_glued[s].isValid()) {
+				sides.push_back(s);
+				loops.merge(s, s.next());
+			}
+		CornerArray<double> length(m_glued.size(), 0.0); // [loop]
+		for (const Corner s : sides)
+			length[loops.find(s)] += lengthOf(s);
+		Array<Corner> longest(partition.componentCount);
+		for (const Corner s : sides) {
+			Corner& known = longest[partition.component[s.face()]];
+			if (const Corner loop = loops.find(s); !known.isValid() || length[loop] > length[known])
+				known = loop;
+		}
+		m_opened.hole.assign(positionOf(m_triangles.size()), {0, 0, 0});
+		for (const Corner s : sides)
+			m_opened.hole[positionOf(s.face())][s.index()] =
+				loops.find(s) != longest[partition.component[s.face()]];
+	}
+
+	/// Opens a side for a seam.
+	/// \return whether it was glued
+	bool open(Corner side)
+	{
+		const Corner other = m_glued[side];
+		if (!other.isValid())
+			return false;
+		unglue(side, m_glued);
+		m_across[side] = other;
+		m_across[other] = side;
+		return true;
+	}
+
+	/// Lets a seam whose two sides still share both their vertices go on straight ahead, by one edge.
+	void lengthenLoneSeams()
+	{
+		struct Way
+		{
+			int from, to;           // vertices of the opened mesh
+			Corner side = {};       // that goes on
+			double straight = -2.0; // cosine of the angle by which it turns
+		};
+		const auto ends = [&](Corner side) -> std::pair<int, int> {
+			return std::minmax(m_corners[side], m_corners[side.next()]);
+		};
+		Array<Way> ways;
+		Array<int> wayAt(m_places.size(), -1); // [vertex]
+		for (const Corner s : m_across.indices()) {
+			const Corner t = m_across[s];
+			const auto [a, b] = ends(s);
+			if (t < s || ends(s) != ends(t))
+				continue;
+			wayAt[a] = wayAt[b] = ways.size();
+			ways.push_back({a, b});
+		}
+		if (ways.empty())
+			return;
+		for (const Corner s : m_glued.indices()) {
+			const auto [a, b] = ends(s);
+			for (const auto& [v, next] : {std::pair(a, b), std::pair(b, a)}) {
+				if (m_glued[s] < s || wayAt[v] < 0)
+					continue;
+				Way& way = ways[wayAt[v]];
+				const double straight = cosineOfTurn(way.from == v ? way.to : way.from, v, next);
+				if (straight > way.straight) {
+					way.straight = straight;
+					way.side = s;
+				}
+			}
+		}
+		for (const Way& way : ways)
+			if (way.side.isValid() && open(way.side)) {
+				++m_opened.seamEdgesAdded;
+				m_opened.seamLengthAdded += lengthOf(way.side);
+			}
+		splitVertices();
+	}
+
+	/// Of the angle between the ways from \p a to \p b and on to \p c; 0 where they have no direction.
+	double cosineOfTurn(int a, int b, int c) const
+	{
+		const Point3 &p = m_places[a], &q = m_places[b], &r = m_places[c];
+		const double lengths = distance(p, q) * distance(q, r);
+		return lengths > 0.0 ? dot(q - p, r - q) / lengths : 0.0;
+	}
+
+	/// Cuts edges that share both vertices with another edge: first both edges, and where that has been
+	/// done, the next side of every triangle there but one, whose corner between its two cut sides then
+	/// is a vertex of its own.
+	/// \return whether there were none
+	bool separateEdges()
+	{
+		std::vector<Corner> cut;
+		Sides(m_corners.values()).forEdges([&](const auto& edge) {
+			if (edge.size() == 1 || (edge.size() == 2 && m_glued[edge[0]] == edge[1]))
+				return;
+			const std::size_t before = cut.size();
+			for (const Corner side : edge)
+				if (m_glued[side].isValid())
+					cut.push_back(side);
+			if (cut.size() > before)
+				return;
+			for (int i = 1; i < edge.size(); ++i)
+				cut.push_back(edge[i].next());
+		});
+		for (const Corner s : cut)
+			unglue(s, m_glued);
+		return cut.empty();
+	}
+
+	/// Where nothing has an area beside the whole, though a face has one by itself, a vertex is too far away.
+	[[noreturn]] void throwNoArea() const
+	{
+		for (const Triangle& t : m_input.triangles) {
+			const auto at = [&](int v) { return m_input.positions[positionOf(v)]; };
+			const Point3 a = at(t[1]) - at(t[0]), b = at(t[2]) - at(t[0]), normal = cross(a, b);
+			const double longest = std::max({length(a), length(b), length(b - a)});
+			if (!(std::hypot(normal[0], normal[1], normal[2]) >
+				  kMinComponentArea * longest * longest))
+				continue;
+			int farthest = t[0];
+			for (const Triangle& other : m_input.triangles)
+				for (const int v : other)
+					if (distance(at(v), at(t[0])) > distance(at(farthest), at(t[0])))
+						farthest = v;
+			throw InvalidMesh(InvalidMesh::ScalesApart, 1, {farthest, -1});
+		}
+		throw InvalidMesh(InvalidMesh::NoArea, m_opened.degenerate.size());
+	}
+
+	/// [component] whether no triangle has an area.
+	/// \throw InvalidMesh TooSmall
+	Array<char> flatComponents() const
+	{
+		// Twice the largest area of a triangle, and the longest side of all.
+		Array<double> area(m_partition.componentCount, 0.0), longest = area;
+		for (const int f : m_triangles.indices()) {
+			const Triangle& t = m_triangles[f];
+			const Point3 &p = m_positions[t[0]], &q = m_positions[t[1]], &r = m_positions[t[2]];
+			const Point3 normal = cross(q - p, r - p);
+			const int c = m_partition.component[f];
+			area[c] = std::max(area[c], std::hypot(normal[0], normal[1], normal[2]));
+			longest[c] = std::max({longest[c], distance(p, q), distance(q, r), distance(r, p)});
+		}
+		std::size_t tiny = 0;
+		Array<char> isFlat(area.size(), 0);
+		for (const int c : area.indices()) {
+			isFlat[c] = !(area[c] > kMinComponentArea * longest[c] * longest[c]);
+			tiny += longest[c] > 0.0 && longest[c] < kMinComponentSize;
+		}
+		requireNone(tiny, InvalidMesh::TooSmall);
+		return isFlat;
+	}
+
+	double lengthOf(Corner side) const
+	{
+		return distance(m_positions[m_triangles[side]], m_positions[m_triangles[side.next()]]);
+	}
+
+	const SurfaceMesh& m_input;
+	Array<Point3> m_positions;    // of the input
+	Array<Triangle> m_triangles;  // those not degenerate, with the vertices of the input
+	Array<Point3> m_places;       // of the opened mesh
+	Array<Triangle> m_corners;    // of the opened mesh
+	CornerArray<Corner> m_glued;  // see FaceGluing
+	CornerArray<Corner> m_across; // the side beyond a seam, or none; empty without seams
+	FacePartition m_partition;
+	OpenedMesh m_opened;
+};
+
+void describe(const OpenedMesh& opened, const SurfaceMesh& mesh, std::vector<std::string>& notes)
+{
+	std::vector<char> isUsed(mesh.positions.size(), 0);
+	for (const Triangle& t : mesh.triangles)
+		for (const int v : t)
+			isUsed[positionOf(v)] = 1;
+	const auto note = [&](std::ptrdiff_t n,
+						  const std::string& one,
+						  const std::string& many,
+						  const std::string& rest) {
+		if (n > 0)
+			notes.push_back(counted(static_cast<std::size_t>(n), one, many) + rest);
+	};
+	const std::ptrdiff_t unused =
+		std::count(isUsed.begin(), isUsed.end(), 0) - static_cast<std::ptrdiff_t>(mesh.absent);
+	note(
+		unused,
+		"vertex belongs to no face and is",
+		"vertices belong to no face and are",
+		" left out.");
+	note(
+		std::count(opened.reversed.begin(), opened.reversed.end(), 1),
+		"face was",
+		"faces were",
+		" oriented against the rest of the surface and counted as inverted.");
+	note(
+		opened.duplicateFaces,
+		"face has the vertices of another and is a sheet of its",
+		"faces have the vertices of another and are sheets of their",
+		" own.");
+	note(
+		opened.cutEdges,
+		"edge of more than two faces was",
+		"edges of more than two faces were",
+		" cut: sheets go on where they are smoothest.");
+	note(opened.seamEdges, "edge is a seam", "edges are seams", ", as chosen.");
+	note(
+		opened.seamEdgesAdded,
+		"seam of one edge alone goes on along one more",
+		"seams of one edge alone go on along one more",
+		": without it, nothing would come apart there.");
+	note(
+		opened.oneSidedComponents,
+		"one-sided component was",
+		"one-sided components were",
+		" cut along short one-sided loops.");
+	note(
+		opened.splitVertices,
+		"vertex has",
+		"vertices have",
+		" more than one fan of faces, each with a place of its own in the map.");
+	note(
+		static_cast<std::ptrdiff_t>(opened.degenerate.size()),
+		"face has no area and is drawn as the line or the point that it is",
+		"faces have no area and are drawn as the lines or the points that they are",
+		".");
+}
+
+} // namespace
+
+void requireLength(const char* array, std::size_t length, std::size_t wanted)
+{
+	if (length != 0 && length != wanted)
+		throw InvalidMesh(array, length, wanted);
+}
+
+OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes, OneSidedCut cut)
+{
+	checkElements(mesh);
+	Opening opening(mesh);
+	opening.cutEdges();
+	opening.openSeams();
+	opening.cutOneSidedComponents(cut);
+	opening.leaveOutFlatComponents();
+	OpenedMesh opened = opening.result();
+	describe(opened, mesh, notes);
+	return opened;
+}
+
+} // namespace ricci

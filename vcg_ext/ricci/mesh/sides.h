@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SIDES_H
+#define RICCI_SIDES_H
+
+#include "../base/adjacency.h"
+#include "surface_mesh.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// The sides of triangles by edge: those with the same two ends, in either direction, are the sides of
+/// one edge. Side c runs from corner c to corner c.next().
+class Sides
+{
+public:
+	explicit Sides(const std::vector<Triangle>& triangles);
+
+	/// Calls \p visit(sides) for every edge, with an ItemRange<const Corner> in increasing order. The
+	/// edges come in the order of their lower ends, then of their higher ends.
+	template<class Visit>
+	void forEdges(const Visit& visit) const
+	{
+		for (int i = 0; i + 1 < m_first.size(); ++i)
+			visit(ItemRange<const Corner>(
+				m_sides.data() + m_first[i], m_sides.data() + m_first[i + 1]));
+	}
+
+	/// The other side of an edge that has two, which run in opposite directions; else none.
+	Corner across(Corner side) const { return m_across[side]; }
+
+private:
+	Array<Corner> m_sides;        // by edge
+	Array<int> m_first;           // [edge] into m_sides; their number
+	CornerArray<Corner> m_across; // [side]
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SURFACE_MESH_H
+#define RICCI_SURFACE_MESH_H
+
+#include "../base/indexed.h"
+#include "../base/points.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace ricci {
+
+/// Numbers of the three corners of a triangle.
+using Triangle = std::array<int, 3>;
+
+/// A triangle soup with shared vertices, as a caller hands it over. The flow itself sees lengths
+/// only; positions are read for the corners of a rectangle, edge swaps, areas and distortion.
+struct SurfaceMesh
+{
+	std::vector<Point3> positions;
+	std::vector<Triangle> triangles; ///< indices into positions
+	/// [face][k] 1 where the side from corner k is a diagonal of a polygon that was cut into triangles;
+	/// may be empty, else one entry for each triangle.
+	std::vector<std::array<char, 3>> diagonal = {};
+	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
+	/// [face][k] 1 where the caller wants a seam along the side from corner k; one face of an edge is
+	/// enough. May be empty, else one entry for each triangle.
+	std::vector<std::array<char, 3>> seam = {};
+};
+
+/// A point of a surface as an affine combination of its vertices. The weights of vertices that are
+/// not used are 0.
+struct SurfacePoint
+{
+	std::array<int, 4> vertex{0, 0, 0, 0};
+	std::array<double, 4> weight{1, 0, 0, 0};
+};
+
+/// The point in space. \p positions [vertex].
+inline Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions)
+{
+	Point3 x{0, 0, 0};
+	for (std::size_t i = 0; i < 4; ++i)
+		if (p.weight[i] != 0.0)
+			x += p.weight[i] * positions[positionOf(p.vertex[i])];
+	return x;
+}
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_LEAST_DISTORTION_H
+#define RICCI_LEAST_DISTORTION_H
+
+#include "../layout/flat_mesh.h"
+#include "../mesh/elements.h"
+
+namespace ricci {
+
+/// What a descent to a map with less of something has done.
+struct Descent
+{
+	int steps = 0; ///< 0: nothing moved
+	double before = 0.0, after = 0.0;
+	bool endedEarly = false; ///< by the number of steps; it may become smaller still
+};
+
+/// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
+/// straight triangles becomes small. A flow that flips edges finds the conformal map of the
+/// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
+/// the best one. No triangle that counts is flipped, the distortion never rises, and the two sides of every seam
+/// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
+/// they are (joinedPoints() says what moves, mean_distortion.h what is minimised).
+///
+/// All points move at once. Every step solves with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
+/// what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
+/// shortened until no triangle is flipped, by an exact test, and the distortion falls enough
+/// [Nocedal Wright 2006, 3.1, 3.5]. A few iterations for the direction are enough: the flow's map is
+/// wrong in the small, where triangles are bent, and solving Newton's equations takes as many steps,
+/// each at several times the cost, for the weights change as fast as the points. The steps end when
+/// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
+///
+/// The same result to the bit with any number of threads.
+/// \param flat one component. Triangles without area in the plane do not count.
+/// If nothing stays, its size may change.
+/// \param cones 1 at cones inside
+/// \param boundaryMoves whether the boundary is free; else its points stay
+/// \param countsFlipped whether flipped triangles stay flipped, and count as reflected ones; else they do not count
+/// It checks between steps whether the run has ended; then \p flat is what it was.
+/// \return its steps; MeanDistortion of the map
+/// \throw std::bad_alloc
+Descent leastDistortion(
+	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped);
+
+/// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy
+/// |J|^2 + |J^-1|^2 by area becomes small [Smith Schaefer 2015]: the map that trades angles for areas, and
+/// stretches nothing much in any direction. The two sides of a seam move freely, so that they differ
+/// afterwards, and so does the boundary.
+///
+/// Newton's method with each triangle's Hessian made positive semidefinite [Smith de Goes Kim 2019]. Steps
+/// are shortened until no triangle is flipped, by an exact test, and the energy falls enough. They end when
+/// one gains less than a thousandth of what is above 4. A chart may cover itself afterwards.
+/// \param flat one component; it gets the area that it has on the surface. Its triangles that are not
+/// counter-clockwise do not count.
+/// \return its mean energies by area: 4 for an isometry
+Descent leastStretch(FlatMesh& flat);
+
+} // namespace ricci
+
+#endif

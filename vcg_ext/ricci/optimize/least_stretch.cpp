@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "least_distortion.h"
+
+#include "../base/task.h"
+#include "../base/tolerances.h"
+#include "../numerics/line_search.h"
+#include "../base/orientation.h"
+#include "patch_energy.h"
+
+#include <cmath>
+
+namespace ricci {
+
+namespace {
+
+/// Steps at most, and the share of what is above an isometry's energy that one must gain.
+constexpr int kMaxSteps = 40;
+constexpr double kMinGain = 1e-3;
+
+constexpr double kMinStep = 1e-8;
+
+constexpr double kIsometry = 4.0;
+
+/// Gives the map the area of the surface.
+void scaleToSurface(FlatMesh& flat)
+{
+	double plane = 0.0;
+	for (const int f : flat.points.indices())
+		plane += 0.5 * std::abs(doubledArea(flat.at(f)));
+	const double scale = std::sqrt(flat.area() / plane);
+	for (Point2& p : flat.place)
+		p = {scale * p[0], scale * p[1]};
+}
+
+/// A map on its way to less stretch.
+class StretchDescent
+{
+public:
+	StretchDescent(const FlatMesh& flat, const std::vector<RestShape>& shapes) :
+			m_start(flat), m_trial(flat),
+			m_energy(
+				flat, allPoints(flat), wholePatch(flat), shapes, PatchCost::SymmetricDirichlet),
+			m_x(Eigen::VectorXd::Zero(m_energy.size()))
+	{
+		for (const int f : flat.points.indices())
+			if (orientation(flat.at(f)) > 0)
+				m_counted.push_back(f);
+			else
+				m_energy.stress(f, 0.0);
+		m_value = m_energy.value(m_x, 0.0);
+	}
+
+	Descent descend()
+	{
+		Descent result{0, m_value, m_value};
+		double gain = m_value;
+		while (result.steps < kMaxSteps && gain > kMinGain * (m_value - kIsometry)) {
+			gain = step();
+			if (!(gain > 0.0))
+				break;
+			++result.steps;
+			result.after = m_value;
+		}
+		result.endedEarly = result.steps == kMaxSteps && gain > kMinGain * (m_value - kIsometry);
+		return result;
+	}
+
+	Array<Point2> places() const { return placesAt(m_x); }
+
+private:
+	Array<Point2> placesAt(const Eigen::VectorXd& x) const
+	{
+		Array<Point2> places = m_start.place;
+		for (const int p : places.indices())
+			places[p] = {places[p][0] + x[2 * p], places[p][1] + x[2 * p + 1]};
+		return places;
+	}
+
+	/// \return by how much the energy falls; 0 where there is no way down
+	double step()
+	{
+		if (!m_energy.newtonStep(m_x, 0.0, m_gradient, m_step))
+			return 0.0;
+		double value = m_value;
+		Eigen::VectorXd x;
+		const double length = LineSearch{kMinStep}.run(
+			1.0,
+			m_step.dot(m_gradient),
+			m_value,
+			[&](double trial) {
+				x = m_x + trial * m_step;
+				return value = m_energy.value(x, 0.0);
+			},
+			[&] {
+				m_trial.place = placesAt(x);
+				for (const int f : m_counted)
+					if (orientation(m_trial.at(f)) <= 0)
+						return false;
+				return true;
+			});
+		if (length == 0.0)
+			return 0.0;
+		m_x.swap(x);
+		const double gain = m_value - value;
+		m_value = value;
+		return gain;
+	}
+
+	const FlatMesh& m_start;
+	FlatMesh m_trial;
+	PatchEnergy m_energy;
+	std::vector<int> m_counted; // triangles
+	Eigen::VectorXd m_x, m_gradient, m_step;
+	double m_value;
+};
+
+} // namespace
+
+Descent leastStretch(FlatMesh& flat)
+{
+	checkpoint();
+	scaleToSurface(flat);
+	const double height = kMinHeight * flat.box().extent();
+	const Validity validity{height, kWantedHeights * height};
+	const std::vector<RestShape> shapes =
+		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, validity);
+	StretchDescent descent(flat, shapes);
+	const Descent result = descent.descend();
+	flat.place = descent.places();
+	return result;
+}
+
+} // namespace ricci

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "point_groups.h"
+
+#include "../base/tolerances.h"
+#include "../base/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Rounding of a coordinate, relative to the extent.
+constexpr double kCoordinateRounding = 8 * kUnitRoundoff;
+
+/// Copies whose turn is less certain do not move.
+constexpr double kMaxTurnError = 1e-6;
+
+/// What turns the side ab to the direction of cd.
+Complex turnOf(Complex a, Complex b, Complex c, Complex d)
+{
+	return (d - c) * std::conj(b - a) / (std::abs(d - c) * std::abs(b - a));
+}
+
+/// Another copy of a point, and how it is turned, as a side of the seam tells.
+struct Copy
+{
+	int point;
+	Complex turn;
+	double error; ///< of the turn by rounding; more than 1 where nothing is told
+};
+
+/// Calls \p visit(side) for every side on the border of a chart: that is not joined to another one.
+template<class Visit>
+void forBorders(const FlatMesh& flat, const Visit& visit)
+{
+	for (const Corner side : flat.across.indices())
+		if (!flat.joined(side).isValid())
+			visit(side);
+}
+
+/// Every point as a group; points of the boundary are fixed unless it moves there.
+PointGroups withBoundary(const FlatMesh& flat, const BoundaryRule& boundaryMoves)
+{
+	PointGroups result;
+	const int count = flat.place.size();
+	result.turn.assign(count, 1.0);
+	result.fixed.assign(count, 0);
+	result.inside.assign(count, 1);
+	for (int p = 0; p < count; ++p)
+		result.group.push_back(p);
+	result.first = result.group;
+	forBorders(flat, [&](Corner side) {
+		for (const Corner c : {side, side.next()}) {
+			const int p = flat.points[c];
+			result.inside[p] = 0;
+			if (!flat.across[side].isValid() && !boundaryMoves(flat.vertices[c]))
+				result.fixed[p] = 1;
+		}
+	});
+	return result;
+}
+
+/// Joins the copies of the seam vertices by the sides of the seams.
+class CopyGroups
+{
+public:
+	CopyGroups(const FlatMesh& flat, const BoundaryRule& boundaryMoves) :
+			m_flat(flat), m_points(withBoundary(flat, boundaryMoves))
+	{
+		const double rounding = kCoordinateRounding * flat.box().extent();
+		forBorders(flat, [&](Corner side) {
+			if (flat.across[side] > side)
+				joinSides(side, rounding);
+		});
+		// The longest sides are followed first.
+		std::stable_sort(m_copies.begin(), m_copies.end(), [](const auto& x, const auto& y) {
+			return x.second.error < y.second.error;
+		});
+	}
+
+	PointGroups groups() const
+	{
+		PointGroups result = m_points;
+		const int count = m_flat.place.size();
+		const Adjacency<int, Copy> copies(count, [&](const auto& add) {
+			for (const auto& [point, copy] : m_copies)
+				add(point, copy);
+		});
+		result.group.assign(count, -1);
+		result.first.clear();
+		result.fixed.clear();
+		Array<double> error(count, 0.0);
+		std::vector<int> members;
+		for (int first = 0; first < count; ++first) {
+			if (result.group[first] >= 0)
+				continue;
+			const int group = result.first.size();
+			bool fixed = false;
+			members.assign(1, first);
+			result.group[first] = group;
+			for (std::size_t i = 0; i < members.size(); ++i) {
+				const int p = members[i];
+				fixed = fixed || m_points.fixed[p];
+				for (const Copy& copy : copies[p]) {
+					Complex turn = copy.turn * result.turn[p];
+					turn /= std::abs(turn);
+					if (result.group[copy.point] < 0) {
+						result.group[copy.point] = group;
+						result.turn[copy.point] = turn;
+						error[copy.point] = error[p] + copy.error;
+						members.push_back(copy.point);
+						fixed = fixed || error[copy.point] > kMaxTurnError;
+					}
+					else if (!(std::abs(turn / result.turn[copy.point] - 1.0) <=
+							   kSeamMatch + error[p] + copy.error + error[copy.point]))
+						fixed = true; // another way round the vertex is another motion
+				}
+			}
+			result.first.push_back(first);
+			result.fixed.push_back(fixed);
+		}
+		return result;
+	}
+
+private:
+	Complex place(int point) const { return asComplex(m_flat.place[point]); }
+
+	/// Joins both ends of the two sides of an edge.
+	void joinSides(Corner side, double rounding)
+	{
+		const Corner across = m_flat.across[side];
+		const std::array<int, 2> one{m_flat.points[side], m_flat.points[side.next()]};
+		const std::array<int, 2> other{m_flat.points[across.next()], m_flat.points[across]};
+		const Complex a = place(one[0]), b = place(one[1]);
+		const Complex c = place(other[0]), d = place(other[1]);
+		const double first = std::abs(b - a), second = std::abs(d - c);
+		const double error = rounding / std::max(std::min(first, second), rounding);
+		if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
+			for (const int p : {one[0], one[1], other[0], other[1]})
+				m_points.fixed[p] = 1;
+			return;
+		}
+		const Complex turn = error < 1.0 ? turnOf(a, b, c, d) : 1.0;
+		for (std::size_t i = 0; i < 2; ++i) {
+			m_copies.push_back({one[i], {other[i], turn, error}});
+			m_copies.push_back({other[i], {one[i], std::conj(turn), error}});
+		}
+	}
+
+	const FlatMesh& m_flat;
+	PointGroups m_points;                       // each a group by itself
+	std::vector<std::pair<int, Copy>> m_copies; // of points
+};
+
+/// Joins the points on the right of a seam to those on its left by the turn that fits its sides best.
+/// \param copies on the left and on the right
+/// \param ends number of the first of them that lie at ends of the seam, which stay
+void joinSeam(
+	const FlatMesh& flat,
+	const std::vector<std::array<int, 2>>& copies,
+	std::size_t ends,
+	double maxGap,
+	PointGroups& groups)
+{
+	std::vector<std::array<Complex, 2>> pairs;
+	std::array<Complex, 2> mean{};
+	for (const auto& [left, right] : copies) {
+		pairs.push_back({asComplex(flat.place[left]), asComplex(flat.place[right])});
+		for (std::size_t k = 0; k < 2; ++k)
+			mean[k] += pairs.back()[k] / static_cast<double>(copies.size());
+	}
+	Complex product = 0.0;
+	for (auto& [a, b] : pairs) {
+		a -= mean[0], b -= mean[1];
+		product += b * std::conj(a);
+	}
+	const Complex turn = product / std::abs(product);
+	double gap = 0.0;
+	for (const auto& [a, b] : pairs)
+		gap = std::max(gap, std::abs(b - turn * a));
+	const bool fits = gap <= maxGap; // not if the turn is no number
+	for (std::size_t i = ends; i < copies.size(); ++i) {
+		const auto [left, right] = copies[i];
+		groups.group[right] = left;
+		groups.turn[right] = turn;
+		groups.fixed[left] = groups.fixed[right] = !fits;
+	}
+}
+
+} // namespace
+
+PointGroups allPoints(const FlatMesh& flat)
+{
+	return withBoundary(flat, [](int) { return true; });
+}
+
+PointGroups insidePoints(const FlatMesh& flat)
+{
+	PointGroups result = allPoints(flat);
+	for (const int p : result.inside.indices())
+		result.fixed[p] = !result.inside[p];
+	return result;
+}
+
+PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves)
+{
+	return CopyGroups(flat, boundaryMoves).groups();
+}
+
+PointGroups joinedPoints(
+	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves)
+{
+	PointGroups groups = withBoundary(flat, boundaryMoves);
+	const double maxGap = kCheckedGap * flat.box().extent();
+	const auto origin = [&](Corner side) { return Vertex(flat.vertices[side]); };
+	const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
+		forBorders(flat, [&](Corner side) { add(origin(side), side); });
+	});
+	VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
+	for (const Vertex v : cones.indices()) {
+		int seams = 0;
+		for (const Corner side : leaving[v])
+			seams += flat.across[side].isValid();
+		isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
+		if (cones[v] || (seams > 0 && !isOnSeam[v]))
+			for (const Corner side : leaving[v])
+				groups.fixed[flat.points[side]] = 1;
+	}
+	const auto goesOn = [&](Corner side) { return isOnSeam[origin(side.next())]; };
+	const auto onward = [&](Corner side) {
+		const ItemRange<const Corner> out = leaving[origin(side.next())];
+		return out[out[0] == flat.across[side]];
+	};
+	for (const Vertex v : cones.indices()) {
+		if (!isOnSeam[v] || seen[v])
+			continue;
+		const ItemRange<const Corner> out = leaving[v];
+		Corner first = out[flat.points[out[1]] < flat.points[out[0]]];
+		while (goesOn(first) && origin(first.next()) != v)
+			first = onward(first);
+		const bool closed = goesOn(first);
+		std::vector<Corner> seam{closed ? onward(first) : flat.across[first]};
+		while (goesOn(seam.back()) && !(closed && origin(seam.back().next()) == v)) {
+			seam.push_back(onward(seam.back()));
+			seen[origin(seam.back())] = 1;
+		}
+		const Corner last = seam.back();
+		std::vector<std::array<int, 2>> copies{
+			{flat.points[last.next()], flat.points[flat.across[last]]}};
+		for (const Corner side : seam)
+			copies.push_back({flat.points[side], flat.points[flat.across[side].next()]});
+		joinSeam(flat, copies, closed ? 1 : 2, maxGap, groups);
+	}
+	return groups;
+}
+
+} // namespace ricci

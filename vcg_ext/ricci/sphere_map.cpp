@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sphere_map.h"
+#include "base/task.h"
+
+#include "base/numbers.h"
+#include "base/tolerances.h"
+#include "error.h"
+#include "numerics/moebius_balancing.h"
+#include "measure/distortion.h"
+#include "mesh/component.h"
+#include "mesh/triangulation.h"
+#include "measure/sphere_check.h"
+#include "whole_map.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ricci {
+
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Another vertex this much nearer to the puncture than its neighbours would dominate the inverted
+/// surface.
+constexpr double kNearest = 0.5;
+
+Vector vec(const Point3& p)
+{
+	return {p[0], p[1], p[2]};
+}
+
+/// The vertices by one coordinate, that in which they reach farthest: few lie near any of them in it.
+class SortedVertices
+{
+public:
+	explicit SortedVertices(const VertexArray<Point3>& positions) : m_positions(positions)
+	{
+		double widest = -1.0;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const auto [low, high] = std::minmax_element(
+				positions.begin(), positions.end(), [k](const Point3& a, const Point3& b) {
+					return a[k] < b[k];
+				});
+			if ((*high)[k] - (*low)[k] > widest) {
+				widest = (*high)[k] - (*low)[k];
+				m_axis = k;
+			}
+		}
+		for (const Vertex v : positions.indices())
+			m_order.push_back(v);
+		std::stable_sort(m_order.begin(), m_order.end(), [&](Vertex a, Vertex b) {
+			return positions[a][m_axis] < positions[b][m_axis];
+		});
+	}
+
+	/// Distance of the vertex nearest to \p v, or \p radius if none is nearer.
+	double nearest(Vertex v, double radius) const
+	{
+		const Point3& centre = m_positions[v];
+		auto other = std::lower_bound(
+			m_order.begin(), m_order.end(), centre[m_axis] - radius, [&](Vertex w, double low) {
+				return m_positions[w][m_axis] < low;
+			});
+		for (; other != m_order.end() && m_positions[*other][m_axis] <= centre[m_axis] + radius;
+			 ++other)
+			if (*other != v)
+				radius = std::min(radius, distance(m_positions[*other], centre));
+		return radius;
+	}
+
+private:
+	const VertexArray<Point3>& m_positions;
+	std::size_t m_axis = 0;
+	std::vector<Vertex> m_order;
+};
+
+/// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
+/// in space; where there is none, the one that others come least near.
+Vertex choosePole(const Component& c)
+{
+	const int n = c.positions.size();
+	VertexArray<double> minAngle(n, std::numeric_limits<double>::infinity());
+	VertexArray<double> nearest(n, std::numeric_limits<double>::infinity()); // neighbour
+	for (const Triangle& t : c.triangles) {
+		double angle = std::numeric_limits<double>::infinity();
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Vertex v(t[k]), next(t[(k + 1) % 3]);
+			const Vector o = vec(c.positions[v]);
+			const Vector a = vec(c.positions[next]) - o;
+			const Vector b = vec(c.positions[Vertex(t[(k + 2) % 3])]) - o;
+			angle = std::min(angle, std::atan2(a.cross(b).norm(), a.dot(b)));
+			const double side = a.norm();
+			nearest[v] = std::min(nearest[v], side);
+			nearest[next] = std::min(nearest[next], side);
+		}
+		for (const int v : t)
+			minAngle[Vertex(v)] = std::min(minAngle[Vertex(v)], angle);
+	}
+	std::vector<Vertex> order;
+	for (const Vertex v : c.positions.indices())
+		order.push_back(v);
+	std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
+		return minAngle[a] != minAngle[b] ? minAngle[a] > minAngle[b] : a < b;
+	});
+	const SortedVertices sorted(c.positions);
+	Vertex best;
+	double mostAlone = 0.0;
+	for (const Vertex pole : order) {
+		checkpoint();
+		const double reach = kNearest * nearest[pole];
+		const double alone = reach > 0.0 ? sorted.nearest(pole, reach) / nearest[pole] : 0.0;
+		if (alone > mostAlone) {
+			mostAlone = alone;
+			best = pole;
+		}
+		if (mostAlone >= kNearest)
+			break;
+	}
+	if (!best.isValid())
+		throw InvalidMesh(InvalidMesh::NotPuncturable);
+	return best;
+}
+
+/// The component inverted about its pole, whose star is taken out.
+SurfaceMesh punctured(const Component& c, Vertex pole)
+{
+	const Vector centre = vec(c.positions[pole]);
+	SurfaceMesh disk;
+	disk.absent = 1;
+	double radius = 0.0, count = 0.0;
+	for (const Triangle& t : c.triangles) {
+		if (std::find(t.begin(), t.end(), pole.number()) == t.end()) {
+			disk.triangles.push_back(t);
+			continue;
+		}
+		for (const int v : t)
+			if (v != pole.number()) {
+				radius += (vec(c.positions[Vertex(v)]) - centre).norm();
+				count += 1.0;
+			}
+	}
+	radius /= count;
+	for (const Point3& p : c.positions) {
+		const Vector x = vec(p) - centre;
+		const double square = x.squaredNorm();
+		const Vector y = square > 0.0 ? Vector(x * (radius * radius / square)) : Vector::Zero();
+		disk.positions.push_back({y[0], y[1], y[2]});
+	}
+	return disk;
+}
+
+/// The value below which half of the weight lies.
+double weightedMedian(const std::vector<double>& values, const std::vector<double>& weights)
+{
+	std::vector<std::size_t> order(values.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return values[a] != values[b] ? values[a] < values[b] : a < b;
+	});
+	const double half = 0.5 * std::accumulate(weights.begin(), weights.end(), 0.0);
+	double sum = 0.0;
+	for (std::size_t i : order)
+		if ((sum += weights[i]) >= half)
+			return values[i];
+	return values[order.back()];
+}
+
+/// Inverse stereographic projection with the middle of the area at the equator. The plane is seen
+/// from inside the sphere, so it is reflected.
+VertexArray<Point3>
+toSphere(const VertexArray<Point2>& plane, const VertexArray<double>& weights, Vertex pole)
+{
+	std::vector<double> x, y, r, w;
+	for (const Vertex v : plane.indices())
+		if (v != pole) {
+			x.push_back(plane[v][0]);
+			y.push_back(plane[v][1]);
+			w.push_back(weights[v]);
+		}
+	const double cx = weightedMedian(x, w), cy = weightedMedian(y, w);
+	for (std::size_t i = 0; i < x.size(); ++i)
+		r.push_back(std::hypot(x[i] - cx, y[i] - cy));
+	double unit = weightedMedian(r, w);
+	if (!(unit > 0.0))
+		unit = *std::max_element(r.begin(), r.end());
+	VertexArray<Point3> sphere(plane.size(), {0.0, 0.0, 1.0});
+	for (const Vertex v : plane.indices()) {
+		if (v == pole)
+			continue;
+		const double a = (plane[v][0] - cx) / unit, b = (cy - plane[v][1]) / unit;
+		const double square = a * a + b * b;
+		sphere[v] = {2 * a / (1 + square), 2 * b / (1 + square), (square - 1) / (1 + square)};
+	}
+	return sphere;
+}
+
+/// Turns the points most nearly towards \p places, seen from their weighted mean [Kabsch 1976].
+void alignWith(
+	const VertexArray<Point3>& places,
+	const VertexArray<double>& weights,
+	VertexArray<Point3>& points)
+{
+	Vector mean = Vector::Zero();
+	double total = 0.0;
+	for (const Vertex v : places.indices()) {
+		mean += weights[v] * vec(places[v]);
+		total += weights[v];
+	}
+	mean /= total;
+	Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+	for (const Vertex v : places.indices())
+		covariance += weights[v] * (vec(places[v]) - mean) * vec(points[v]).transpose();
+	const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+		covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+	Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
+	sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
+	const Eigen::Matrix3d rotation = svd.matrixU() * sign * svd.matrixV().transpose();
+	for (Point3& p : points) {
+		const Vector q = (rotation * vec(p)).normalized();
+		p = {q[0], q[1], q[2]};
+	}
+}
+
+/// Distortion and orientation of the straight triangles.
+/// \throw NotConverged LostInRounding where most of the surface has no picture left
+void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& map)
+{
+	std::vector<double> before, after;
+	double sum = 0.0, areaSum = 0.0, flippedArea = 0.0;
+	for (const Triangle& t : c.triangles) {
+		std::array<Point3, 3> own, image;
+		for (std::size_t k = 0; k < 3; ++k) {
+			own[k] = c.positions[Vertex(t[k])];
+			image[k] = sphere[Vertex(t[k])];
+		}
+		const Vector a = vec(image[1]) - vec(image[0]), b = vec(image[2]) - vec(image[0]);
+		const Vector normal = a.cross(b);
+		const bool isFlipped = !(vec(image[0]).dot(normal) > 0.0);
+		map.flippedFaces += isFlipped;
+		before.push_back(triangleArea(own));
+		flippedArea += isFlipped ? before.back() : 0.0;
+		after.push_back(0.5 * normal.norm());
+		const double base = a.norm();
+		const double qc =
+			base > 0.0
+				? quasiConformalDistortion(
+					  own, {{{0.0, 0.0}, {base, 0.0}, {a.dot(b) / base, normal.norm() / base}}})
+				: std::numeric_limits<double>::infinity();
+		if (!std::isfinite(qc))
+			continue;
+		sum += before.back() * qc;
+		areaSum += before.back();
+		map.qcMax = std::max(map.qcMax, qc);
+	}
+	const double total = std::accumulate(before.begin(), before.end(), 0.0);
+	if (!(areaSum > 0.0) || 2.0 * flippedArea > total) {
+		double smallest = 1.0, largest = 1.0;
+		for (std::size_t f = 0; f < before.size(); ++f)
+			if (const double ratio = after[f] / before[f] * total / (4.0 * kPi); ratio > 0.0) {
+				smallest = std::min(smallest, ratio);
+				largest = std::max(largest, ratio);
+			}
+		throw NotConverged(
+			NotConverged::LostInRounding,
+			positionOf(map.flippedFaces),
+			std::round(0.5 * std::log10(largest / smallest)));
+	}
+	map.qcAreaMean = sum / areaSum;
+	if (map.flippedFaces > 0)
+		logLine(
+			std::to_string(map.flippedFaces) +
+			(map.flippedFaces == 1 ? " face of the sphere is" : " faces of the sphere are") +
+			" flipped: parts of the surface become smaller there than straight faces, or doubles, "
+			"can draw.");
+	const AreaDistortion area = areaDistortion(before, after);
+	map.areaDistortionMean = area.mean;
+	map.areaDistortionSpread = area.spread;
+}
+
+/// Takes over the numbers of the opened mesh, and draws the faces that it leaves out.
+void placeVertices(
+	const SurfaceMesh& mesh,
+	const OpenedMesh& opened,
+	const Component& c,
+	const VertexArray<Point3>& sphere,
+	SphereMap& map)
+{
+	map.positions.assign(opened.vertex.size(), {0.0, 0.0, 0.0});
+	map.vertex = opened.vertex;
+	map.triangles = mesh.triangles;
+	std::vector<char> isPlaced(opened.vertex.size(), 0);
+	for (const Vertex v : c.vertex.indices()) {
+		map.positions[positionOf(c.vertex[v])] = sphere[v];
+		isPlaced[positionOf(c.vertex[v])] = 1;
+	}
+	for (std::size_t f = 0; f < opened.face.size(); ++f)
+		map.triangles[positionOf(opened.face[f])] = opened.mesh.triangles[f];
+	for (const int f : opened.degenerate) {
+		const Triangle& t = mesh.triangles[positionOf(f)];
+		int known = map.pole;
+		for (const int v : t)
+			if (isPlaced[positionOf(v)])
+				known = v;
+		for (const int v : t)
+			if (!isPlaced[positionOf(v)]) {
+				map.positions[positionOf(v)] = map.positions[positionOf(known)];
+				isPlaced[positionOf(v)] = 1;
+			}
+	}
+}
+
+} // namespace
+
+SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
+{
+	std::vector<std::string> notes;
+	const OpenedMesh opened = openMesh(mesh, notes);
+	const std::vector<Component> components = splitIntoComponents(opened);
+	const Component& c = components.front();
+	if (components.size() > 1)
+		throw InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, components.size());
+	const SurfaceType type = topologyOf(Triangulation(c.positions.size(), c.triangles)).type;
+	if (!type.isSphere())
+		throw InvalidOption(InvalidOption::NotASphere, TargetCurvature::Automatic, type);
+
+	const Vertex pole = choosePole(c);
+	const SurfaceMesh disk = punctured(c, pole);
+	Options flow;
+	flow.epsilon = options.epsilon;
+	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
+	flow.finish = Finish::None;
+	flow.charts = Charts::OfTheFlow;
+	OpenedMesh openedDisk;
+	const Parametrization flat = [&] {
+		const Task quiet(0.0, 1.0, true); // the log would speak of the punctured surface
+		return chartsInPlane(disk, {}, flow, openedDisk);
+	}();
+	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
+	for (const int f : flat.mesh.points.indices())
+		for (const Corner corner : cornersOf(f))
+			plane[Vertex(flat.mesh.vertices[corner])] = flat.mesh.at(corner);
+
+	VertexArray<double> weights(c.positions.size(), 0.0);
+	for (const Triangle& t : c.triangles) {
+		const double area = triangleArea(
+			{c.positions[Vertex(t[0])], c.positions[Vertex(t[1])], c.positions[Vertex(t[2])]});
+		for (const int v : t)
+			weights[Vertex(v)] += area / 3.0;
+	}
+	VertexArray<Point3> sphere = toSphere(plane, weights, pole);
+	SphereMap map;
+	map.pole = opened.vertex[positionOf(c.vertex[pole])];
+	map.iterations = flat.report.iterations;
+	map.maxCurvatureError = flat.report.maxCurvatureError;
+	map.offset = balanceByMoebius(sphere.values(), weights.values());
+	alignWith(c.positions, weights, sphere);
+	measure(c, sphere, map);
+	const SphereCheck check = checkSphere(c.triangles, sphere.values());
+	// A face that spans more than a hemisphere is a straight triangle on the other side, flipped:
+	// one covering less.
+	const double coverings = std::round(check.degree);
+	if (!(check.radiusError <= kCheckedRadius) ||
+		!(std::abs(check.degree - coverings) <= kCheckedDegree) ||
+		std::abs(coverings - 1.0) > map.flippedFaces || check.turned > map.flippedFaces)
+		throw NotConverged(
+			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
+			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
+			" faces flipped");
+	placeVertices(mesh, opened, c, sphere, map);
+	return map;
+}
+
+} // namespace ricci

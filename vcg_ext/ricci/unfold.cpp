@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "whole_map.h"
+
+#include "base/memory_estimate.h"
+#include "base/numbers.h"
+#include "base/parallel.h"
+#include "base/task.h"
+#include "base/tolerances.h"
+#include "charts/separate_charts.h"
+#include "mesh/creases.h"
+#include "mesh/flow_domain.h"
+#include "mesh/opened_mesh.h"
+#include "flatten.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Angles above which an edge is a crease: less sharp ones are those of coarse round parts, whose pieces are
+/// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round. The
+/// least sharp ones, which rough surfaces have everywhere, are those of parts that unfold at others.
+constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0, 25.0 * kPi / 180.0};
+
+/// The least sharp ones are those of a rough surface, and its map would cost more, where they make more than so
+/// many pieces, and by this factor more than the first ones.
+constexpr double kManyPieces = 200.0, kRough = 1.5;
+
+/// Memory that maps of a component take while its flow waits, in units of what the flow alone needs: in all, and
+/// for each at work. Fitted from above to measured peaks of 2e5 and 3e5 faces (1.6 for one, 2.6 for two).
+constexpr double kBesideMaps = 0.5, kOneMap = 1.1;
+
+/// How many of \p count maps there are threads and memory for at the same time.
+int mapsAtOnce(int count, std::size_t faces)
+{
+	const double flow = estimatedMemory(faces, faces, false);
+	int most = std::min(count, threadsFor(static_cast<std::int64_t>(faces)));
+	while (most > 0 && !hasRoomFor((kBesideMaps + kOneMap * most) * flow))
+		--most;
+	return most;
+}
+
+/// The pieces of a component between creases, as components of it; none if pieces have no area.
+std::vector<Component> pieces(const Component& component, const Creases& creases)
+{
+	SurfaceMesh surface{component.positions.values(), component.triangles, component.diagonal};
+	surface.seam = creases.sides;
+	std::vector<std::string> notes; // which speak of seams that nobody has asked for
+	const OpenedMesh opened = openMesh(surface, notes);
+	if (!opened.degenerate.empty())
+		return {};
+	std::vector<Component> pieces = splitIntoComponents(opened);
+	for (Component& piece : pieces)
+		for (int& v : piece.vertex.values())
+			v = opened.vertex[positionOf(v)];
+	return pieces;
+}
+
+/// What the triangles of the map leave of a full turn round a vertex inside, and of half a turn on the
+/// boundary.
+void measureCurvature(const VertexArray<char>& isBoundary, Parametrization& map)
+{
+	std::vector<double>& curvature = map.targetCurvature;
+	for (const Vertex v : isBoundary.indices())
+		curvature[positionOf(v)] = isBoundary[v] ? kPi : 2.0 * kPi;
+	for (const int f : map.mesh.points.indices())
+		for (const Corner c : cornersOf(f)) {
+			const Point2 a = map.mesh.at(c.next()) - map.mesh.at(c);
+			const Point2 b = map.mesh.at(c.next().next()) - map.mesh.at(c);
+			curvature[positionOf(map.mesh.vertices[c])] -=
+				std::atan2(std::abs(cross(a, b)), dot(a, b));
+		}
+	for (const Vertex v : isBoundary.indices())
+		if (double& k = curvature[positionOf(v)]; !isBoundary[v]) {
+			k = std::abs(k) > kConeCurvature ? k : 0.0;
+			map.report.cones += k != 0.0;
+		}
+}
+
+Parametrization
+joined(const Component& component, const std::vector<Component>& pieces, const Options& options)
+{
+	Options ofPieces = options;
+	ofPieces.finish =
+		Finish::Repair; // leaves free boundaries as long as they are, so that they join
+	ofPieces.holes = Holes::Boundaries; // they are pieces elsewhere
+	const auto vertexCount = component.positions.values().size();
+	Parametrization map;
+	map.mesh.source = verticesOf(vertexCount);
+	map.u.resize(vertexCount, 0.0);
+	map.targetCurvature.resize(vertexCount, 0.0);
+	std::vector<Parametrization> flat(pieces.size());
+	const auto flatten = [&](int i) {
+		const Component& piece = pieces[positionOf(i)];
+		flat[positionOf(i)] = asParametrization(piece, *flattenToPlane(piece, {}, ofPieces));
+	};
+	tasksInParallel(
+		static_cast<int>(pieces.size()),
+		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
+		flatten);
+	for (std::size_t i = 0; i < pieces.size(); ++i)
+		append(pieces[i], std::move(flat[i]), map);
+	connect(map.mesh); // across creases, too
+	separateCharts(ofPieces, map);
+	joinCharts(map);
+	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
+	Report& report = map.report;
+	report.components = 1;
+	for (FlowState& state : report.flowStates)
+		state.component = 0;
+	report.genus = topology.type.genus;
+	report.boundaryLoops = topology.type.boundaryLoops;
+	report.eulerCharacteristic = topology.type.eulerCharacteristic();
+	report.cones = 0;
+	measureCurvature(topology.boundary, map);
+	const Seams seam = seams(map.mesh);
+	report.seamEdges = static_cast<int>(seam.edges.size());
+	report.seamLength = seam.length;
+	report.overlapCuts = 0;
+	report.targetUsed = TargetUsed::Unfolded;
+	report.choice.clear();
+	report.expectedSpread.reset();
+	if (topology.type.isClosed()) { // the boundaries are the creases' alone
+		report.boundaryRatioMin.reset();
+		report.boundaryRatioMax.reset();
+	}
+	map.notes.clear();
+	return map;
+}
+
+} // namespace
+
+std::optional<Parametrization>
+unfold(const Component& component, const Options& options, double maxBetween)
+{
+	std::vector<std::vector<Component>> divisions; // the pieces
+	int edges = 0;                                 // that are creases
+	const std::vector<Point3>& positions = component.positions.values();
+	const Sides sides(component.triangles);
+	for (const double angle : kCreaseAngles) {
+		const Creases found = creases(positions, component.triangles, sides, angle);
+		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
+		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
+			break; // as it is between creases that are sharper
+		if (isBent || found.edges == edges)
+			continue;
+		edges = found.edges;
+		std::vector<Component> all = pieces(component, found);
+		const auto count = static_cast<double>(all.size());
+		if (!all.empty() &&
+			(divisions.empty() ||
+			 count <= std::max(kManyPieces, kRough * static_cast<double>(divisions[0].size()))))
+			divisions.push_back(std::move(all));
+	}
+	std::vector<std::optional<Parametrization>> maps(divisions.size());
+	std::vector<std::vector<std::string>> lines(divisions.size()); // of the log
+	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
+	if (atOnce == 0 && !maps.empty()) {
+		logLine("There is not enough memory to unfold the surface between its creases, too.");
+		return std::nullopt;
+	}
+	const auto count = static_cast<int>(maps.size());
+	tasksInParallel(count, atOnce, [&](int i) {
+		Task part(double(i) / count, (i + 1.0) / count);
+		part.keepLines(lines[positionOf(i)]);
+		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
+			const Task silent(0.0, 1.0, true);
+			return joined(component, divisions[positionOf(i)], options);
+		});
+	});
+	for (const std::vector<std::string>& own : lines)
+		logLines(own);
+	std::optional<Parametrization> best;
+	int steps = 0; // Newton's
+	for (std::optional<Parametrization>& map : maps) {
+		steps += map ? map->report.iterations : 0;
+		if (map && (!best || costOf(*map).total() < costOf(*best).total()))
+			best = std::move(map);
+	}
+	if (best)
+		best->report.iterations = steps;
+	return best;
+}
+
+} // namespace ricci

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "whole_map.h"
+
+#include "base/memory_estimate.h"
+#include "base/parallel.h"
+#include "base/task.h"
+#include "charts/separate_charts.h"
+#include "measure/distortion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+std::size_t largestComponent(const std::vector<Component>& components)
+{
+	std::size_t largest = 0;
+	for (const Component& component : components)
+		largest = std::max(largest, component.triangles.size());
+	return largest;
+}
+
+/// Of more components than this, the log and the notes describe so many only, the largest.
+constexpr std::size_t kDescribedComponents = 20;
+
+/// [component] 1 where nothing is said of it.
+std::vector<char> silentComponents(const std::vector<Component>& components)
+{
+	std::vector<std::size_t> order(components.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	const std::size_t described = std::min(kDescribedComponents, order.size());
+	std::partial_sort(
+		order.begin(),
+		order.begin() + static_cast<std::ptrdiff_t>(described),
+		order.end(),
+		[&](std::size_t a, std::size_t b) {
+			const std::size_t m = components[a].triangles.size(),
+							  n = components[b].triangles.size();
+			return m != n ? m > n : a < b;
+		});
+	std::vector<char> isSilent(components.size(), 1);
+	for (std::size_t i = 0; i < described; ++i)
+		isSilent[order[i]] = 0;
+	return isSilent;
+}
+
+/// Adds what the flow and the cut say.
+void complete(const ComponentMap& map, Report& report)
+{
+	const FlowResult& flow = map.flow;
+	if (!report.flowStates.empty())
+		report.iterations += report.flowStates.back().step;
+	report.maxCurvatureError = flow.residual;
+	report.residualFloor = flow.floor;
+	report.lengthened = flow.start.lengthened.largest;
+	if (flow.target.background == Background::EuclideanPlane)
+		report.targetUsed = flow.target.used;
+	report.choice = flow.target.choice;
+	report.expectedSpread = flow.target.expectedSpread;
+	report.brokenTriangles = flow.metric->brokenTriangles();
+	report.flips = flow.flipCount();
+	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
+	report.seamEdges = map.cut.edgeCount;
+}
+
+} // namespace
+
+std::vector<Component> startMap(
+	const SurfaceMesh& mesh,
+	const FlowOptions& options,
+	OneSidedCut cut,
+	OpenedMesh& opened,
+	Parametrization& map)
+{
+	opened = openMesh(mesh, map.notes, cut);
+	std::vector<Component> components = splitIntoComponents(opened);
+	if (options.method != Method::IntrinsicFlips)
+		requireAreaEverywhere(components);
+	requireMemory(
+		largestComponent(components),
+		opened.mesh.triangles.size(),
+		options.output == OutputTriangulation::CommonRefinement);
+	logLines(map.notes);
+	map.mesh.source = verticesOf(opened.mesh.positions.size());
+	map.u.assign(opened.mesh.positions.size(), 0.0);
+	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
+	map.report.cutNonmanifoldEdges = opened.cutEdges;
+	map.report.splitVertices = opened.splitVertices;
+	map.report.duplicateFaces = opened.duplicateFaces;
+	map.report.oneSidedComponents = opened.oneSidedComponents;
+	map.report.degenerateFaces = static_cast<int>(opened.degenerate.size());
+	map.report.chosenSeamEdges = opened.seamEdges;
+	map.report.chosenSeamLength = opened.seamLength;
+	map.report.seamEdges = opened.seamEdgesAdded;
+	map.report.seamLength = opened.seamLengthAdded;
+	return components;
+}
+
+Parametrization asParametrization(const Component& component, ComponentMap map)
+{
+	Parametrization part;
+	const Target& target = map.flow.target;
+	const double shift = std::log(map.scale);
+	for (const Vertex v : component.vertex.indices()) {
+		part.u.push_back(map.flow.u[v] + shift);
+		part.targetCurvature.push_back(
+			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v]);
+	}
+	for (const Vertex v : map.cones.indices())
+		if (map.cones[v] && target.used == TargetUsed::PlacedCones)
+			part.placedCones.push_back(v.number());
+	part.notes = map.notes;
+	part.report = map.report;
+	complete(map, part.report);
+	part.charts.emplace_back().group = std::move(map.group);
+	part.mesh = std::move(map.mesh);
+	return part;
+}
+
+MapCost costOf(const Parametrization& map)
+{
+	return costOf(map.mesh, map.report.seamLength);
+}
+
+void separateCharts(const Options& options, Parametrization& map)
+{
+	if (mayCutCharts(options))
+		separateCharts(
+			{options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options)}, map);
+}
+
+void append(const Component& component, Parametrization part, Parametrization& whole)
+{
+	FlatMesh &mesh = whole.mesh, &own = part.mesh;
+	const int vertexCount = component.vertex.size();
+	Array<int> index(component.vertex.values()); // of each vertex of the component's mesh
+	for (int i = vertexCount; i < own.source.size(); ++i) {
+		SurfacePoint p = own.source[i];
+		for (int& v : p.vertex)
+			v = component.vertex[Vertex(v)];
+		index.push_back(mesh.source.size());
+		mesh.source.push_back(p);
+	}
+	part.report.refinementPoints = std::max(0, own.source.size() - vertexCount);
+	own.source = {};
+	for (Triangle& vertices : own.vertices)
+		for (int& v : vertices)
+			v = index[v];
+	for (int& chart : own.chart)
+		chart += static_cast<int>(whole.charts.size());
+	for (int& face : own.face)
+		face = component.face[Face(face)];
+	mesh.append(std::move(own));
+	whole.charts.insert(whole.charts.end(), part.charts.begin(), part.charts.end());
+	for (const Vertex v : component.vertex.indices()) {
+		const std::size_t vertex = positionOf(component.vertex[v]);
+		whole.u[vertex] = part.u[positionOf(v)];
+		whole.targetCurvature[vertex] = part.targetCurvature[positionOf(v)];
+	}
+	for (const int v : part.placedCones)
+		whole.placedCones.push_back(component.vertex[Vertex(v)]);
+	whole.notes.insert(whole.notes.end(), part.notes.begin(), part.notes.end());
+	whole.report += part.report;
+}
+
+std::size_t faceCount(const std::vector<Component>& components)
+{
+	std::size_t count = 0;
+	for (const Component& component : components)
+		count += component.triangles.size();
+	return count;
+}
+
+void nameComponent(const OpenedMesh& opened, const Component& component, Error& error)
+{
+	if (component.triangles.size() == opened.mesh.triangles.size())
+		return;
+	error.componentFace = opened.face[positionOf(component.face.front())];
+	error.componentFaces = component.triangles.size();
+}
+
+void appendComponents(
+	const OpenedMesh& opened,
+	const std::vector<Component>& components,
+	const std::function<Parametrization(const Component&)>& flatten,
+	Parametrization& whole)
+{
+	struct Mapped
+	{
+		std::optional<Parametrization> part;
+		std::vector<std::string> lines;
+		std::exception_ptr error;
+		std::atomic<bool> isDone{false};
+	};
+	const auto count = static_cast<int>(components.size());
+	const std::size_t faces = faceCount(components);
+	const std::vector<char> isSilent = silentComponents(components);
+	std::vector<Mapped> mapped(components.size());
+	const auto caller = std::this_thread::get_id();
+	int appended = 0; // components
+	std::atomic<int> firstFailed{count};
+	std::atomic<std::size_t> facesDone{0};
+	const auto appendDone = [&] {
+		for (; appended < count && mapped[positionOf(appended)].isDone; ++appended) {
+			Mapped& own = mapped[positionOf(appended)];
+			logLines(own.lines);
+			own.lines.clear();
+			if (own.error)
+				return;
+			if (isSilent[positionOf(appended)] != 0)
+				own.part->notes.clear();
+			append(components[positionOf(appended)], std::move(*own.part), whole);
+			own.part.reset();
+		}
+	};
+	const auto mapOne = [&](int i) {
+		if (i > firstFailed)
+			return;
+		const Component& component = components[positionOf(i)];
+		Mapped& own = mapped[positionOf(i)];
+		const auto share = [&](std::size_t done) {
+			return kComponentsDone * static_cast<double>(done) / static_cast<double>(faces);
+		};
+		const bool isCaller = std::this_thread::get_id() == caller;
+		try {
+			const std::size_t before = facesDone;
+			Task part(
+				share(before), share(before + component.triangles.size()), isSilent[positionOf(i)]);
+			if (!isCaller || i != appended)
+				part.keepLines(own.lines);
+			own.part = flatten(component);
+		}
+		catch (const Stopped&) {
+			throw; // not the component's fault
+		}
+		catch (Error& error) {
+			nameComponent(opened, component, error);
+			own.error = std::current_exception();
+			for (int first = firstFailed;
+				 i < first && !firstFailed.compare_exchange_weak(first, i);) {
+			}
+		}
+		facesDone += component.triangles.size();
+		own.isDone = true;
+		if (isCaller)
+			appendDone();
+	};
+	const bool hasRoom = hasRoomFor(estimatedMemory(faces, faces, true));
+	tasksInParallel(count, hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1, mapOne);
+	appendDone();
+	if (firstFailed < count)
+		std::rethrow_exception(mapped[positionOf(firstFailed)].error);
+	if (components.size() > kDescribedComponents)
+		logLine(
+			"The log leaves out the smaller ones of " + std::to_string(components.size()) +
+			" components.");
+}
+
+} // namespace ricci
