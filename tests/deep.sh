@@ -37,12 +37,12 @@ declare -A share=([windows]=300 [clang]=240 [long-double]=240 [extra-plugins]=18
 not_run=77
 
 # The programs of the core that read no files of others.
-portable=(math_test surface_test metric_test cut_test layout_test verify_test error_sentences_test)
-portable_all=(flow_test curvature_test seamless_test charts_test finish_test fuchsian_test measure_test
+portable=(base_test numerics_test mesh_test metric_test cut_test layout_test measure_test error_sentences_test)
+portable_all=(flow_test cones_test charts_test optimize_test hyperbolic_test
 	public_test free_memory_test)
 # The programs that meet hostile input.
-hostile=(math_test surface_test cut_test charts_test layout_test public_test faults_test)
-hostile_all=(metric_test flow_test curvature_test seamless_test verify_test)
+hostile=(numerics_test mesh_test cut_test charts_test layout_test public_test faults_test)
+hostile_all=(base_test metric_test flow_test cones_test measure_test)
 
 have() {
 	command -v "$1" >/dev/null
@@ -150,7 +150,7 @@ part_threads() {
 	local test program
 	echo 'int main() {}' | c++ -fsanitize=thread -x c++ -o /dev/null - 2>/dev/null ||
 		missing "threads: this compiler has no thread sanitizer"
-	for test in base/parallel_test math/one_thread_test; do
+	for test in base/parallel_test numerics/one_thread_test; do
 		program=$folder/${test##*/}
 		c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/$test.cpp" \
 			"$root"/vcg_ext/ricci/base/{task,error}.cpp \

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
+#include <ricci/base/convex_hull.h>
 #include <ricci/base/indexed.h>
 #include <ricci/base/numbers.h>
-#include <ricci/base/convex_hull.h>
 #include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>

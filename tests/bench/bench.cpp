@@ -15,12 +15,12 @@
 #include <ricci/cones/target_curvature.h>
 #include <ricci/flow/hessian.h>
 #include <ricci/flow/ricci_flow.h>
-#include <ricci/numerics/sparse_cholesky.h>
-#include <ricci/metric/circle_packing.h>
-#include <ricci/metric/euclidean.h>
-#include <ricci/parametrize.h>
 #include <ricci/mesh/component.h>
 #include <ricci/mesh/flow_domain.h>
+#include <ricci/metric/circle_packing.h>
+#include <ricci/metric/euclidean.h>
+#include <ricci/numerics/sparse_cholesky.h>
+#include <ricci/parametrize.h>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>

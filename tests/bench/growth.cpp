@@ -8,9 +8,9 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/task.h>
+#include <ricci/mesh/sides.h>
 #include <ricci/parametrize.h>
 #include <ricci/progress.h>
-#include <ricci/mesh/sides.h>
 
 #include <array>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/charts/chart_overlap.h>
 #include <ricci/base/orientation.h>
+#include <ricci/charts/chart_overlap.h>
 
 #include <gtest/gtest.h>
 

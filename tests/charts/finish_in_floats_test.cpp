@@ -3,9 +3,9 @@
 #include "support/random.h"
 
 #include <ricci/base/floating_point.h>
+#include <ricci/base/orientation.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
-#include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/base/orientation.h>
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
-#include <ricci/base/orientation.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Where cones may lie, the tree of their seams, and the steps of the search for them.
 #include "linearised.h"
 
-#include <ricci/cones/cone_search.h>
 #include <ricci/base/shortest_paths.h>
+#include <ricci/cones/cone_search.h>
 #include <ricci/metric/area.h>
 
 #include <set>

@@ -5,11 +5,11 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
+#include <ricci/base/disjoint_sets.h>
 #include <ricci/cut/cut_graph.h>
 #include <ricci/cut/shorten_cut.h>
 #include <ricci/error.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/base/disjoint_sets.h>
 #include <ricci/mesh/triangulation.h>
 
 #include <gtest/gtest.h>

@@ -9,8 +9,8 @@
 
 #include <bridge/error_sentences.h>
 
-#include <ricci/error.h>
 #include <ricci/base/orientation.h>
+#include <ricci/error.h>
 #include <ricci/mesh/opened_mesh.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>

@@ -4,8 +4,8 @@
 
 #include "byte_source.h"
 
-#include <ricci/options.h>
 #include <ricci/mesh/surface_mesh.h>
+#include <ricci/options.h>
 
 #include <vector>
 

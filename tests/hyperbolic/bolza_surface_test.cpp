@@ -7,7 +7,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/hyperbolic/fuchsian_group.h>
+#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/hyperbolic/tiling.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/measure/period_matrix.h>

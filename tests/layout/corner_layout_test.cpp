@@ -7,9 +7,9 @@
 #include "support/intrinsic.h"
 #include "support/refinement_check.h"
 
-#include <ricci/refinement/common_refinement.h>
 #include <ricci/layout/corner_layout.h>
 #include <ricci/mesh/normal_coordinates.h>
+#include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,11 @@
 #include "support/shapes.h"
 #include "support/wide.h"
 
-#include <ricci/refinement/common_refinement.h>
 #include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/conformal_flip.h>
 #include <ricci/metric/hyperbolic.h>
+#include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/numerics/disk_isometry.h>
 #include <ricci/measure/chart_check.h>
 #include <ricci/measure/overlap_check.h>
 #include <ricci/measure/sphere_check.h>
+#include <ricci/numerics/disk_isometry.h>
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/hyperbolic/fuchsian_group.h>
-#include <ricci/metric/hyperbolic.h>
+#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/hyperbolic/holonomy_check.h>
 #include <ricci/measure/metric_check.h>
+#include <ricci/metric/hyperbolic.h>
 
 #include <gtest/gtest.h>
 

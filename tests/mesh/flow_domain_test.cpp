@@ -4,8 +4,8 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/base/numbers.h>
 #include <ricci/base/disjoint_sets.h>
+#include <ricci/base/numbers.h>
 #include <ricci/base/shortest_paths.h>
 #include <ricci/mesh/creases.h>
 #include <ricci/mesh/flow_domain.h>

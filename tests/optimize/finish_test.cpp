@@ -2,9 +2,9 @@
 #include "flat_maps.h"
 #include "support/random.h"
 
-#include <ricci/optimize/finish.h>
 #include <ricci/base/orientation.h>
 #include <ricci/measure/distortion.h>
+#include <ricci/optimize/finish.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/flat_mesh.h>
 #include <ricci/base/orientation.h>
+#include <ricci/layout/flat_mesh.h>
 
 #include <cstdint>
 #include <utility>

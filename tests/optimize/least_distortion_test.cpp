@@ -6,11 +6,11 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
+#include <ricci/measure/distortion.h>
 #include <ricci/optimize/distortion_laplacian.h>
 #include <ricci/optimize/least_distortion.h>
 #include <ricci/optimize/limited_memory_bfgs.h>
 #include <ricci/optimize/mean_distortion.h>
-#include <ricci/measure/distortion.h>
 
 #include <gtest/gtest.h>
 

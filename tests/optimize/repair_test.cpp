@@ -4,8 +4,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/optimize/repair.h>
 #include <ricci/base/orientation.h>
+#include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #define RICCI_TESTS_BOLZA_H
 
 #include <ricci/cut/cut_graph.h>
-#include <ricci/metric/circle_packing.h>
 #include <ricci/mesh/triangulation.h>
+#include <ricci/metric/circle_packing.h>
 
 #include <complex>
 #include <functional>

@@ -5,8 +5,8 @@
 #include "shapes.h"
 
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/layout/parametrization.h>
 #include <ricci/layout/flat_mesh.h>
+#include <ricci/layout/parametrization.h>
 #include <ricci/measure/distortion.h>
 
 #include <algorithm>

@@ -4,11 +4,11 @@
 
 #include "random.h"
 
-#include <ricci/metric/circle_packing.h>
 #include <ricci/mesh/component.h>
 #include <ricci/mesh/opened_mesh.h>
 #include <ricci/mesh/surface_mesh.h>
 #include <ricci/mesh/triangulation.h>
+#include <ricci/metric/circle_packing.h>
 
 #include <vector>
 

@@ -8,9 +8,9 @@
 #include "obj_writer.h"
 #include "vcg_mesh.h"
 
+#include <ricci/mesh/component.h>
 #include <ricci/refinement/common_refinement.h>
 #include <ricci/whole_map.h>
-#include <ricci/mesh/component.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 

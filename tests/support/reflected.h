@@ -6,8 +6,8 @@
 
 #include "shapes.h"
 
-#include <ricci/base/numbers.h>
 #include <ricci/base/disjoint_sets.h>
+#include <ricci/base/numbers.h>
 #include <ricci/mesh/surface_mesh.h>
 
 #include <cmath>

@@ -4,11 +4,11 @@
 
 #include "cut/cut_graph.h"
 #include "flow/ricci_flow.h"
-#include "hyperbolic/fuchsian_group.h"
+#include "hyperbolic/group_of_cut.h"
 #include "layout/flat_mesh.h"
 #include "layout/planar_layout.h"
-#include "parametrize.h"
 #include "mesh/component.h"
+#include "parametrize.h"
 
 #include <functional>
 #include <optional>

@@ -7,9 +7,9 @@
 #include "cones/target_curvature.h"
 #include "cut/cut_graph.h"
 #include "cut/seam_cost.h"
-#include "refinement/common_refinement.h"
-#include "mesh/flow_domain.h"
 #include "flatten.h"
+#include "mesh/flow_domain.h"
+#include "refinement/common_refinement.h"
 
 namespace ricci {
 

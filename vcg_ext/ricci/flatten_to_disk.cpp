@@ -4,14 +4,14 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "hyperbolic/hyperbolic_target.h"
 #include "cut/cut_graph.h"
-#include "layout/hyperbolic_layout.h"
-#include "mesh/flow_domain.h"
-#include "measure/chart_check.h"
-#include "hyperbolic/holonomy_check.h"
-#include "measure/metric_check.h"
 #include "flatten_steps.h"
+#include "hyperbolic/holonomy_check.h"
+#include "hyperbolic/hyperbolic_target.h"
+#include "layout/hyperbolic_layout.h"
+#include "measure/chart_check.h"
+#include "measure/metric_check.h"
+#include "mesh/flow_domain.h"
 
 #include <algorithm>
 #include <cmath>

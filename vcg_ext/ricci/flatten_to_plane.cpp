@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
+#include "base/convex_hull.h"
 #include "base/parallel.h"
 #include "base/task.h"
+#include "cones/make_seamless.h"
 #include "cones/target_curvature.h"
 #include "cut/cut_graph.h"
 #include "cut/seam_cost.h"
+#include "flatten_steps.h"
 #include "flow/swapped_flow.h"
-#include "optimize/finish.h"
-#include "base/convex_hull.h"
+#include "hyperbolic/holonomy_check.h"
+#include "measure/chart_check.h"
 #include "measure/distortion.h"
 #include "measure/invariants.h"
-#include "cones/make_seamless.h"
-#include "mesh/flow_domain.h"
-#include "measure/chart_check.h"
-#include "hyperbolic/holonomy_check.h"
 #include "measure/metric_check.h"
-#include "flatten_steps.h"
+#include "mesh/flow_domain.h"
+#include "optimize/finish.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #ifndef RICCI_INPUT_INDICES_H
 #define RICCI_INPUT_INDICES_H
 
-#include "mesh/opened_mesh.h"
 #include "layout/parametrization.h"
+#include "mesh/opened_mesh.h"
 
 namespace ricci {
 

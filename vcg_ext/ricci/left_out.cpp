@@ -2,10 +2,10 @@
 #include "left_out.h"
 
 #include "base/task.h"
-#include "hyperbolic/hyperbolic_target.h"
 #include "error.h"
-#include "mesh/triangulation.h"
 #include "flatten_steps.h"
+#include "hyperbolic/hyperbolic_target.h"
+#include "mesh/triangulation.h"
 #include "whole_map.h"
 
 #include <cstddef>

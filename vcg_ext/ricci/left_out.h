@@ -4,8 +4,8 @@
 #define RICCI_LEFT_OUT_H
 
 #include "layout/parametrization.h"
-#include "parametrize.h"
 #include "mesh/component.h"
+#include "parametrize.h"
 
 #include <vector>
 

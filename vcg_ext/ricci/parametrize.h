@@ -3,9 +3,9 @@
 #define RICCI_PARAMETRIZE_H
 
 #include "layout/parametrization.h"
+#include "mesh/surface_mesh.h"
 #include "options.h"
 #include "progress.h"
-#include "mesh/surface_mesh.h"
 
 #include <vector>
 

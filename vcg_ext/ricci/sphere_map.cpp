@@ -5,11 +5,11 @@
 #include "base/numbers.h"
 #include "base/tolerances.h"
 #include "error.h"
-#include "numerics/moebius_balancing.h"
 #include "measure/distortion.h"
+#include "measure/sphere_check.h"
 #include "mesh/component.h"
 #include "mesh/triangulation.h"
-#include "measure/sphere_check.h"
+#include "numerics/moebius_balancing.h"
 #include "whole_map.h"
 
 #include <Eigen/Core>

@@ -2,9 +2,9 @@
 #ifndef RICCI_SPHERE_MAP_H
 #define RICCI_SPHERE_MAP_H
 
+#include "mesh/surface_mesh.h"
 #include "options.h"
 #include "progress.h"
-#include "mesh/surface_mesh.h"
 
 #include <vector>
 

@@ -7,10 +7,10 @@
 #include "base/task.h"
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
+#include "flatten.h"
 #include "mesh/creases.h"
 #include "mesh/flow_domain.h"
 #include "mesh/opened_mesh.h"
-#include "flatten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,13 @@
 #define RICCI_WHOLE_MAP_H
 
 #include "charts/outline_packing.h"
-#include "layout/parametrization.h"
 #include "error.h"
+#include "flatten.h"
 #include "flow/target.h"
+#include "layout/parametrization.h"
+#include "mesh/component.h"
 #include "options.h"
 #include "parametrize.h"
-#include "mesh/component.h"
-#include "flatten.h"
 
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_division.h"
 
-#include "../base/task.h"
 #include "../base/adjacency.h"
+#include "../base/task.h"
 #include "../numerics/min_cut.h"
 #include "connected_pieces.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_overlap.h"
 
-#include "../base/task.h"
-#include "../base/tolerances.h"
 #include "../base/convex_hull.h"
 #include "../base/orientation.h"
+#include "../base/task.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <array>

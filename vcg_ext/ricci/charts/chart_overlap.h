@@ -2,10 +2,10 @@
 #ifndef RICCI_CHART_OVERLAP_H
 #define RICCI_CHART_OVERLAP_H
 
-#include "../base/indexed.h"
-#include "../layout/flat_mesh.h"
 #include "../base/box_tree.h"
+#include "../base/indexed.h"
 #include "../base/points.h"
+#include "../layout/flat_mesh.h"
 
 #include <array>
 #include <cstdint>

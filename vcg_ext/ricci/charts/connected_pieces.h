@@ -2,8 +2,8 @@
 #ifndef RICCI_CONNECTED_PIECES_H
 #define RICCI_CONNECTED_PIECES_H
 
-#include "../base/indexed.h"
 #include "../base/disjoint_sets.h"
+#include "../base/indexed.h"
 
 #include <cstddef>
 #include <functional>

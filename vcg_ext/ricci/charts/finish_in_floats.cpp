@@ -5,10 +5,8 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../optimize/cover_repair.h"
 #include "../optimize/repair.h"
 #include "chart_overlap.h"
-#include "../hyperbolic/divide_disks.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -28,12 +26,6 @@ constexpr int kMaxPackings = 4;
 
 /// A refinement of which more pieces are lost is not cut into so many charts.
 constexpr std::size_t kMostLost = 1000;
-
-/// A part of a disk that is moved to the middle of its own may still overlap itself there, which is rare.
-constexpr int kMaxSeparations = 3;
-
-/// Steps on all triangles that a stage of the repair of disks may spend.
-constexpr std::int64_t kMaxSteps = 50;
 
 /// What the triangles of a map have to be once they are stored.
 struct Wanted
@@ -136,45 +128,6 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 	}
 }
 
-/// Mends triangles of charts in the unit disk, and divides those that overlap then.
-/// \return points that were moved
-int repairDisks(const DiskFinish& finish, Parametrization& map)
-{
-	const RestShapes shapes = finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface;
-	const Validity validity = diskValidity(map.charts.size());
-	Repair result;
-	const auto inside = [&](RestShapes rest) {
-		WorkLimit limit(map.mesh.size(), kMaxSteps);
-		result.add(repair(map.mesh, insidePoints(map.mesh), {rest, validity}, limit));
-	};
-	const auto inCover = [&](bool boundaryMoves) {
-		if (result.left == 0)
-			return;
-		WorkLimit limit(map.mesh.size(), kMaxSteps);
-		result.add(repairInCover(map.mesh, {shapes, validity}, boundaryMoves, limit));
-	};
-	inside(shapes);
-	inCover(finish.freeBoundary);
-	inCover(true);
-	inside(RestShapes::OfSurfaceEvenly);
-	for (int i = 0; i < kMaxSeparations && separateDisks(map); ++i)
-		;
-	return result.movedCount();
-}
-
-/// Triangles of disks that are not valid, and those that overlap.
-int countFaults(const Parametrization& map)
-{
-	const Validity validity = diskValidity(map.charts.size());
-	auto count = static_cast<int>(badTriangles(map.mesh, validity).size());
-	for (const std::vector<int>& triangles : map.mesh.trianglesByChart(map.charts.size())) {
-		const Array<char> overlaps =
-			OverlapSearch(map.mesh.part(triangles), validity.height / kMinFloatSteps).overlapping();
-		count += static_cast<int>(std::count(overlaps.begin(), overlaps.end(), 1));
-	}
-	return count;
-}
-
 } // namespace
 
 void finishInFloats(const FloatFinish& finish, Parametrization& map)
@@ -211,33 +164,6 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		finish.packAgain();
 		finish.measure();
 	}
-}
-
-bool finishDisks(const DiskFinish& finish, Parametrization& map)
-{
-	int faults = countFaults(map);
-	if (faults == 0)
-		return false;
-	bool isChanged = false;
-	const Parametrization asFound = map;
-	for (const bool divides : {false, true}) {
-		Parametrization next = asFound;
-		if (faults == 0 || (divides && !divideDisks(next)))
-			break;
-		const int moved = repairDisks(finish, next);
-		const int left = countFaults(next);
-		if (left >= faults)
-			continue;
-		faults = left;
-		isChanged = true;
-		map = std::move(next);
-		map.report.finishMoved += moved;
-	}
-	if (map.charts.size() > asFound.charts.size())
-		logLine(
-			"Floats cannot hold the disks as they are: they are divided into " +
-			std::to_string(map.charts.size()) + ", each with its own middle.");
-	return isChanged;
 }
 
 } // namespace ricci

@@ -32,21 +32,6 @@ struct FloatFinish
 /// \throw NotConverged PiecesLost where that would be too many pieces of a refinement
 void finishInFloats(const FloatFinish& finish, Parametrization& map);
 
-/// What finishDisks() has to know.
-struct DiskFinish
-{
-	bool freeBoundary = false;
-	bool isRefined = false; ///< the triangles keep their shapes
-};
-
-/// The same for charts in the Poincaré disk, before placeDisks(): mends the triangles that are flipped, or that
-/// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides
-/// (repairInCover()). Disks that overlap themselves as straight triangles are divided (separateDisks()); where
-/// triangles are left all the same, they are divided first (divideDisks()), if that leaves fewer. A map that
-/// would not have fewer faults stays as it was.
-/// \return whether points were moved or disks divided
-bool finishDisks(const DiskFinish& finish, Parametrization& map);
-
 } // namespace ricci
 
 #endif

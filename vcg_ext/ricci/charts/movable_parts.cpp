@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "movable_parts.h"
 
-#include "../base/tolerances.h"
 #include "../base/orientation.h"
+#include "../base/tolerances.h"
 #include "../metric/area.h"
 
 #include <map>

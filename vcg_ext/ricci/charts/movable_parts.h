@@ -2,8 +2,8 @@
 #ifndef RICCI_MOVABLE_PARTS_H
 #define RICCI_MOVABLE_PARTS_H
 
-#include "../layout/flat_mesh.h"
 #include "../base/box_tree.h"
+#include "../layout/flat_mesh.h"
 #include "chart_overlap.h"
 
 #include <array>

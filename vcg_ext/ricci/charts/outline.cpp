@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline.h"
 
-#include "../base/task.h"
 #include "../base/box_tree.h"
+#include "../base/task.h"
 
 #include <algorithm>
 #include <cstddef>

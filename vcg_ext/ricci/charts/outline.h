@@ -2,8 +2,8 @@
 #ifndef RICCI_OUTLINE_H
 #define RICCI_OUTLINE_H
 
-#include "../layout/flat_mesh.h"
 #include "../base/points.h"
+#include "../layout/flat_mesh.h"
 
 #include <array>
 #include <vector>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline_packing.h"
 
+#include "../base/convex_hull.h"
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/convex_hull.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pack.h"
 
+#include "../base/convex_hull.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../base/convex_hull.h"
 #include "separate_charts.h"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #ifndef RICCI_PACK_H
 #define RICCI_PACK_H
 
+#include "../layout/parametrization.h"
 #include "../options.h"
 #include "outline_packing.h"
-#include "../layout/parametrization.h"
 
 #include <cstddef>
 #include <vector>

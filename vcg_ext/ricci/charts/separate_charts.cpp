@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "separate_charts.h"
 
-#include "../base/task.h"
 #include "../base/convex_hull.h"
 #include "../base/disjoint_sets.h"
 #include "../base/orientation.h"
+#include "../base/task.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"

@@ -2,9 +2,9 @@
 #include "cone_search.h"
 
 #include "../base/numbers.h"
+#include "../base/shortest_paths.h"
 #include "../base/task.h"
 #include "../flow/target.h"
-#include "../base/shortest_paths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "cone_sites.h"
 
 #include "../base/task.h"
-#include "../metric/area.h"
 #include "../mesh/triangulation.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include "../base/task.h"
 #include "../error.h"
 #include "../flow/curvature_map.h"
-#include "../numerics/aggregation.h"
 #include "../metric/circle_packing.h"
 #include "../metric/euclidean.h"
+#include "../numerics/aggregation.h"
 
 #include <Eigen/IterativeLinearSolvers>
 

@@ -2,14 +2,14 @@
 #include "make_seamless.h"
 
 #include "../base/numbers.h"
+#include "../base/points.h"
 #include "../base/task.h"
+#include "../metric/area.h"
+#include "../metric/laplacian.h"
 #include "area_change.h"
 #include "cone_placement.h"
 #include "cone_sites.h"
 #include "linear_flow.h"
-#include "../base/points.h"
-#include "../metric/area.h"
-#include "../metric/laplacian.h"
 
 #include <Eigen/Cholesky>
 

@@ -2,9 +2,9 @@
 #ifndef RICCI_MAKE_SEAMLESS_H
 #define RICCI_MAKE_SEAMLESS_H
 
-#include "target_curvature.h"
 #include "../flow/ricci_flow.h"
 #include "seamless_metric.h"
+#include "target_curvature.h"
 
 namespace ricci {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cut_graph.h"
 
-#include "../error.h"
 #include "../base/adjacency.h"
 #include "../base/disjoint_sets.h"
 #include "../base/shortest_paths.h"
+#include "../error.h"
 #include "../mesh/triangulation.h"
 #include "shorten_cut.h"
 

@@ -3,8 +3,8 @@
 
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../numerics/sparse_cholesky.h"
 #include "../metric/laplacian.h"
+#include "../numerics/sparse_cholesky.h"
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shorten_cut.h"
 
-#include "../base/task.h"
 #include "../base/shortest_paths.h"
+#include "../base/task.h"
 
 #include <algorithm>
 #include <utility>

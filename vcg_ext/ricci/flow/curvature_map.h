@@ -2,9 +2,9 @@
 #ifndef RICCI_CURVATURE_MAP_H
 #define RICCI_CURVATURE_MAP_H
 
+#include "../mesh/elements.h"
 #include "../metric/circle_packing.h"
 #include "../metric/conformal_flip.h"
-#include "../mesh/elements.h"
 
 #include <memory>
 #include <vector>

@@ -4,9 +4,9 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../metric/area.h"
 #include "../mesh/flow_domain.h"
 #include "../mesh/normal_coordinates.h"
+#include "../metric/area.h"
 #include "circle_target.h"
 
 #include <algorithm>

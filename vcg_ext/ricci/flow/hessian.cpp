@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hessian.h"
 
+#include "../base/adjacency.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../base/adjacency.h"
 
 #include <algorithm>
 #include <cmath>

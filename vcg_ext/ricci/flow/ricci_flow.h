@@ -2,9 +2,9 @@
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 
+#include "../mesh/flow_domain.h"
 #include "../metric/circle_packing.h"
 #include "../options.h"
-#include "../mesh/flow_domain.h"
 #include "newton.h"
 #include "target.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "swapped_flow.h"
 
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../error.h"
-#include "flow_run.h"
-#include "../base/points.h"
 #include "../metric/euclidean.h"
+#include "flow_run.h"
 
 #include <algorithm>
 #include <string>

@@ -3,10 +3,10 @@
 #ifndef RICCI_SWAPPED_FLOW_H
 #define RICCI_SWAPPED_FLOW_H
 
-#include "curvature_map.h"
-#include "ricci_flow.h"
 #include "../mesh/component.h"
 #include "../mesh/flow_domain.h"
+#include "curvature_map.h"
+#include "ricci_flow.h"
 
 #include <array>
 #include <functional>

@@ -4,9 +4,9 @@
 #define RICCI_TARGET_H
 
 #include "../base/numbers.h"
+#include "../mesh/elements.h"
 #include "../options.h"
 #include "../report.h"
-#include "../mesh/elements.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #include "holonomy_check.h"
 
 #include "../base/numbers.h"
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../numerics/disk_isometry.h"
-#include "../base/points.h"
 
 #include <algorithm>
 #include <cmath>

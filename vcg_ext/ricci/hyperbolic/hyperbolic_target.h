@@ -2,8 +2,8 @@
 #ifndef RICCI_HYPERBOLIC_TARGET_H
 #define RICCI_HYPERBOLIC_TARGET_H
 
-#include "../options.h"
 #include "../cones/admissible.h"
+#include "../options.h"
 
 namespace ricci {
 

@@ -3,8 +3,8 @@
 #ifndef RICCI_TILING_H
 #define RICCI_TILING_H
 
+#include "../layout/fuchsian_group.h"
 #include "../numerics/disk_isometry.h"
-#include "fuchsian_group.h"
 
 #include <complex>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "corner_layout.h"
 
+#include "../base/disjoint_sets.h"
 #include "../base/memory_estimate.h"
 #include "../base/task.h"
-#include "../base/disjoint_sets.h"
 #include "../mesh/normal_coordinates.h"
 #include "end_sheets.h"
 

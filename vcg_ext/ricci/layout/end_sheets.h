@@ -2,17 +2,11 @@
 #ifndef RICCI_END_SHEETS_H
 #define RICCI_END_SHEETS_H
 
-#include "../refinement/overlay_pieces.h"
+#include "../flow/ricci_flow.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"
 
 namespace ricci {
-
-/// Whether the side of a piece that begins at this corner is on the cut.
-inline bool isOnCut(const PieceCorner& c, const EdgeArray<char>& isCut)
-{
-	return c.input.isValid() && isCut[c.input.edge()];
-}
 
 /// The end triangles as they are laid out. The cut runs on input edges, through end triangles: a
 /// triangle that it divides is drawn once for each of its parts. A sheet is one such drawing, a whole
@@ -32,12 +26,6 @@ void takeMetric(const FlowResult& flow, EndSheets& sheets);
 /// Lays the sheets out, see layOutInPlane() and layOutInDisk().
 PlanarLayout layOutInPlane(const EndSheets& sheets, Face root = Face(0));
 HyperbolicLayout layOutInDisk(const EndSheets& sheets);
-
-/// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
-/// meet off the cut. They form a surface without a cut.
-/// \param isCut [input edge]
-EndSheets
-makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<char>& isCut);
 
 } // namespace ricci
 

@@ -2,8 +2,8 @@
 #include "flat_mesh.h"
 
 #include "../base/tolerances.h"
-#include "../metric/area.h"
 #include "../mesh/sides.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cstddef>

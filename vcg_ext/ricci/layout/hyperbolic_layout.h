@@ -2,8 +2,8 @@
 #ifndef RICCI_HYPERBOLIC_LAYOUT_H
 #define RICCI_HYPERBOLIC_LAYOUT_H
 
-#include "../numerics/disk_isometry.h"
 #include "../mesh/triangulation.h"
+#include "../numerics/disk_isometry.h"
 #include "flat_mesh.h"
 
 #include <complex>

@@ -2,10 +2,10 @@
 #ifndef RICCI_PARAMETRIZATION_H
 #define RICCI_PARAMETRIZATION_H
 
-#include "../hyperbolic/fuchsian_group.h"
-#include "flat_mesh.h"
 #include "../base/points.h"
 #include "../report.h"
+#include "flat_mesh.h"
+#include "fuchsian_group.h"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 #include "planar_layout.h"
 
 #include "../base/numbers.h"
-#include "../base/tolerances.h"
 #include "../base/shortest_paths.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

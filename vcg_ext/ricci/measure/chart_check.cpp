@@ -2,11 +2,11 @@
 #include "chart_check.h"
 
 #include "../base/numbers.h"
+#include "../base/orientation.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../numerics/double_double.h"
-#include "../base/orientation.h"
 #include "metric_check.h"
 
 #include <algorithm>

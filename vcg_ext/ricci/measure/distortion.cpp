@@ -3,12 +3,12 @@
 
 #include "../base/floating_point.h"
 #include "../base/indexed.h"
+#include "../base/orientation.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
-#include "../numerics/disk_isometry.h"
-#include "../base/orientation.h"
 #include "../metric/area.h"
+#include "../numerics/disk_isometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 
+#include "../base/points.h"
 #include "../flow/target.h"
 #include "../layout/flat_mesh.h"
-#include "../base/points.h"
-#include "../report.h"
 #include "../mesh/surface_mesh.h"
+#include "../report.h"
 
 #include <array>
 #include <vector>

@@ -2,8 +2,8 @@
 #include "invariants.h"
 
 #include "../base/numbers.h"
-#include "../base/tolerances.h"
 #include "../base/points.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

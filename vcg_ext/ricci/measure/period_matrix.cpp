@@ -3,10 +3,10 @@
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../error.h"
-#include "../numerics/sparse_cholesky.h"
-#include "../metric/laplacian.h"
 #include "../cones/holonomy.h"
+#include "../error.h"
+#include "../metric/laplacian.h"
+#include "../numerics/sparse_cholesky.h"
 #include "invariants.h"
 
 #include <Eigen/Cholesky>

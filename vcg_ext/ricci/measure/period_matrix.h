@@ -2,8 +2,8 @@
 #ifndef RICCI_PERIOD_MATRIX_H
 #define RICCI_PERIOD_MATRIX_H
 
-#include "../numerics/sparse_cholesky.h"
 #include "../mesh/triangulation.h"
+#include "../numerics/sparse_cholesky.h"
 
 #include <Eigen/Core>
 

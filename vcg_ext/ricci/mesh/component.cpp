@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "component.h"
 
-#include "../error.h"
 #include "../base/adjacency.h"
+#include "../error.h"
 
 #include <algorithm>
 #include <set>

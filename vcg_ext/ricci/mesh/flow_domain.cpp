@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_domain.h"
 
-#include "../base/tolerances.h"
 #include "../base/points.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "opened_mesh.h"
 
+#include "../base/disjoint_sets.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../base/disjoint_sets.h"
 #include "face_gluing.h"
 #include "sides.h"
 

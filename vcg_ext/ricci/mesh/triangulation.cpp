@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation.h"
 
-#include "../error.h"
 #include "../base/disjoint_sets.h"
+#include "../error.h"
 #include "sides.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "circle_packing.h"
 
+#include "../base/disjoint_sets.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../base/disjoint_sets.h"
 #include "area.h"
 #include "conformal_flip.h"
 #include "euclidean.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mean_distortion.h"
 
+#include "../base/orientation.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
-#include "../base/orientation.h"
 #include "../metric/area.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #ifndef RICCI_PATCHES_H
 #define RICCI_PATCHES_H
 
-#include "../layout/flat_mesh.h"
 #include "../base/adjacency.h"
+#include "../layout/flat_mesh.h"
 #include "point_groups.h"
 
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "point_groups.h"
 
-#include "../base/tolerances.h"
 #include "../base/adjacency.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_refinement.h"
 
-#include "../base/task.h"
 #include "../base/disjoint_sets.h"
+#include "../base/task.h"
 #include "overlay_pieces.h"
-#include "../layout/end_sheets.h"
+#include "sheets_of_pieces.h"
 
 #include <cmath>
 #include <complex>

@@ -2,8 +2,8 @@
 #ifndef RICCI_COMMON_REFINEMENT_H
 #define RICCI_COMMON_REFINEMENT_H
 
-#include "overlay_pieces.h"
 #include "../layout/corner_layout.h"
+#include "overlay_pieces.h"
 
 namespace ricci {
 

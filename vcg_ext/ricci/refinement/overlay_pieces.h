@@ -23,8 +23,8 @@
 #ifndef RICCI_OVERLAY_PIECES_H
 #define RICCI_OVERLAY_PIECES_H
 
-#include "../flow/ricci_flow.h"
 #include "../base/adjacency.h"
+#include "../flow/ricci_flow.h"
 #include "../mesh/surface_mesh.h"
 #include "barycentric.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "old_charts.h"
 
-#include "../base/task.h"
 #include "../base/disjoint_sets.h"
+#include "../base/task.h"
 #include "../mesh/sides.h"
 
 #include <algorithm>

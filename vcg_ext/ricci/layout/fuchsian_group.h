@@ -2,11 +2,10 @@
 #ifndef RICCI_FUCHSIAN_GROUP_H
 #define RICCI_FUCHSIAN_GROUP_H
 
-#include "../cut/cut_graph.h"
-#include "../layout/hyperbolic_layout.h"
+#include "../mesh/elements.h"
 #include "../numerics/disk_isometry.h"
-#include "../mesh/triangulation.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace ricci {
@@ -33,7 +32,15 @@ struct FuchsianGroup
 	bool isCanonical() const { return !relation.empty(); }
 
 	/// a1, b1, ..., ag, bg, e1, ..., en: the letters of the relation, each once.
-	std::vector<ExtendedIsometry> generators() const;
+	std::vector<ExtendedIsometry> generators() const
+	{
+		std::vector<ExtendedIsometry> result;
+		const std::size_t commutators = 2 * handles.size(); // letters
+		for (std::size_t i = 0; i < relation.size(); ++i)
+			if (i >= commutators || i % 4 < 2)
+				result.push_back(relation[i]);
+		return result;
+	}
 
 	/// Side pairings of the polygon into which the cut opens the surface, each followed by its
 	/// inverse: they take the fundamental domain to its neighbours. One pair for each arc of the
@@ -53,33 +60,6 @@ struct FuchsianGroup
 	/// longer: 2^-101 of the condition (see bestConditioned()), to the order of magnitude.
 	double relationError = 0.0;
 };
-
-/// Gives all edges of an arc of the cut the most exact side pairing among them: but for rounding an
-/// arc has one. Arcs end where the cut branches, at cones and at the boundary.
-/// \param pairing [edge] of the layout, for the edges of the cut
-/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
-EdgeArray<SidePairing> pairingOfArcs(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones);
-
-/// Computes the group from the side pairings of a layout. With each boundary loop drawn together to
-/// a point the cut is a graph, and all its edges but CutGraph::generators form a spanning tree. On
-/// the way round this tree, the crossings of the 4 g sides of the generators spell the relation of
-/// a polygon whose corners are one point; canonicalBases() makes it canonical in many ways, and
-/// bestConditioned() takes one.
-///
-/// \param pairing [edge] pairingOfArcs()
-/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
-/// \param canonical find handles, relation and relationError, too
-/// \throw InternalError if the word of the polygon is none
-FuchsianGroup fuchsianGroup(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones,
-	bool canonical = false);
 
 } // namespace ricci
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fuchsian_group.h"
+#include "group_of_cut.h"
 
 #include "canonical_generators.h"
 #include "handle_moves.h"
@@ -180,16 +180,6 @@ void addCanonicalBasis(
 }
 
 } // namespace
-
-std::vector<ExtendedIsometry> FuchsianGroup::generators() const
-{
-	std::vector<ExtendedIsometry> result;
-	const std::size_t commutators = 2 * handles.size(); // letters
-	for (std::size_t i = 0; i < relation.size(); ++i)
-		if (i >= commutators || i % 4 < 2)
-			result.push_back(relation[i]);
-	return result;
-}
 
 EdgeArray<SidePairing> pairingOfArcs(
 	const Triangulation& t,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ricci/hyperbolic/divide_disks.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
+#include <ricci/hyperbolic/finish_disks.h>
 #include <ricci/measure/chart_check.h>
 
 #include <gtest/gtest.h>

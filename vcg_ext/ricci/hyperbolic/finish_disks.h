@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_DIVIDE_DISKS_H
-#define RICCI_DIVIDE_DISKS_H
+#ifndef RICCI_FINISH_DISKS_H
+#define RICCI_FINISH_DISKS_H
 
-#include "../optimize/validity.h"
 #include "../layout/parametrization.h"
+#include "../optimize/validity.h"
 
 #include <cstddef>
 
@@ -29,6 +29,21 @@ bool separateDisks(Parametrization& map);
 
 /// Where a mesh has so many disks, none is divided further: their squares get too small.
 constexpr int kMaxDisks = 256;
+
+/// What finishDisks() has to know.
+struct DiskFinish
+{
+	bool freeBoundary = false;
+	bool isRefined = false; ///< the triangles keep their shapes
+};
+
+/// What finishInFloats() does in the plane, for charts in the Poincaré disk before placeDisks(): mends the triangles that are flipped, or that
+/// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides
+/// (repairInCover()). Disks that overlap themselves as straight triangles are divided (separateDisks()); where
+/// triangles are left all the same, they are divided first (divideDisks()), if that leaves fewer. A map that
+/// would not have fewer faults stays as it was.
+/// \return whether points were moved or disks divided
+bool finishDisks(const DiskFinish& finish, Parametrization& map);
 
 } // namespace ricci
 
