@@ -317,7 +317,8 @@ std::vector<Log> logs()
 			 EXPECT_EQ(map.report.boundarySplits, 1);
 			 return {
 				 {l.component("a disk"), Lines::kFree},
-				 l.newton("1 boundary edges split; the flow starts again.")};
+				 l.newton("1 boundary edges split; the flow starts again."),
+				 {l.boundary()}};
 		 },
 		 ""},
 		{{"Needles", withFlatTail(rectangle(6, 6, 0.5, 1), 47, 48, 100.0), with([](Options& o) {

@@ -31,8 +31,7 @@ FuchsianGroup groupOf(
 	for (const Edge e : t.edges())
 		if (cut.isCut[e])
 			offerPairing(layout, lengths[e], e.halfedge(), e.halfedge().twin(), pairing[e]);
-	const VertexArray<char> cones(t.vertexCount(), 0);
-	return fuchsianGroup(t, cut, pairingOfArcs(t, cut, pairing, cones), cones, true);
+	return fuchsianGroup(t, cut, pairingOfArcs(t, cut, pairing), true);
 }
 
 /// Inversive distances of hyperbolic lengths (Eq. 3 as printed) know the scale: for the surface's own

@@ -241,10 +241,10 @@ TEST(ChartCheck, PointsHaveToBeNumbersAndInTheDisk)
 
 using Counts = std::array<int, 2>; ///< faces and charts
 
-Counts overlapsOf(Parametrization map)
+Counts overlapsOf(const Parametrization& map)
 {
-	countOverlaps(map);
-	return {map.report.overlappingFaces, map.report.overlappingCharts};
+	const OverlapsInFloats count = overlapsInFloats(map.mesh);
+	return {count.faces, count.charts};
 }
 
 /// Unit squares of two triangles with these lower left corners, one chart each.
@@ -273,7 +273,7 @@ Parametrization strip(double angle)
 	})));
 }
 
-TEST(CountOverlaps, FindsThoseOfAChartWithItselfAndOfTwoCharts)
+TEST(OverlapsInFloats, FindsThoseOfAChartWithItselfAndOfTwoCharts)
 {
 	EXPECT_EQ(overlapsOf(strip(1.5 * kPi)), (Counts{0, 0}));
 	// The strip is as wide as it moves out in a turn. What lies beyond that touches what it passes; each of
@@ -288,7 +288,7 @@ TEST(CountOverlaps, FindsThoseOfAChartWithItselfAndOfTwoCharts)
 }
 
 /// Charts that are a step of a double apart may be stored at one place, and overlap by what is stored.
-TEST(CountOverlaps, GoesByTheCoordinatesAsFloats)
+TEST(OverlapsInFloats, GoesByTheCoordinatesAsFloats)
 {
 	const double step = std::ldexp(1.0, -23); // of a float above 1
 	EXPECT_EQ(overlapsOf(squares({{0, 0}, {1 - 2 * step, 0}})), (Counts{0, 0}));
@@ -298,7 +298,7 @@ TEST(CountOverlaps, GoesByTheCoordinatesAsFloats)
 }
 
 /// Two squares whose common side is a seam, the right one wider and higher by the factor \p scale.
-int unequalSeams(double scale)
+int unequalSeamsAt(double scale)
 {
 	FlatMesh flat = flatMesh(
 		{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
@@ -309,20 +309,16 @@ int unequalSeams(double scale)
 	for (const int p : chart.indices())
 		if (chart[p] == 1)
 			flat.place[p] = scale * flat.place[p];
-	Parametrization map = mapWith(flat);
-	countUnequalSeams(map);
-	return map.report.unequalSeams;
+	return unequalSeams(flat);
 }
 
-TEST(CountUnequalSeams, ComparesTheSidesOfEachEdgeOfASeam)
+TEST(UnequalSeams, ComparesTheSidesOfEachEdgeOfASeam)
 {
-	EXPECT_EQ(unequalSeams(1.0), 0);
-	EXPECT_EQ(unequalSeams(1.0 + 0.9 * kUnequalShare), 0);
-	EXPECT_EQ(unequalSeams(1.0 + 1.1 * kUnequalShare), 1);
-	EXPECT_EQ(unequalSeams(1.0 / (1.0 + 1.1 * kUnequalShare)), 1);
-	Parametrization map = strip(1.5 * kPi); // no edge inside, and no boundary
-	countUnequalSeams(map);
-	EXPECT_EQ(map.report.unequalSeams, 0);
+	EXPECT_EQ(unequalSeamsAt(1.0), 0);
+	EXPECT_EQ(unequalSeamsAt(1.0 + 0.9 * kUnequalShare), 0);
+	EXPECT_EQ(unequalSeamsAt(1.0 + 1.1 * kUnequalShare), 1);
+	EXPECT_EQ(unequalSeamsAt(1.0 / (1.0 + 1.1 * kUnequalShare)), 1);
+	EXPECT_EQ(unequalSeams(strip(1.5 * kPi).mesh), 0); // no edge inside, and no boundary
 }
 
 SurfaceMesh octahedron()

@@ -7,7 +7,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/hyperbolic/group_of_cut.h>
-#include <ricci/hyperbolic/holonomy_check.h>
+#include <ricci/hyperbolic/closing_error.h>
 #include <ricci/measure/metric_check.h>
 #include <ricci/metric/hyperbolic.h>
 
@@ -118,17 +118,17 @@ struct LaidOut
 	LaidOut(const SurfaceMesh& mesh, const HyperbolicRequest& request) :
 			flow(mesh, request, 1e-12), cut(flow.cut()), disk(flow.refinement(cut))
 	{
-		disk.pairing = pairingOfArcs(flow.base(), cut, disk.pairing, flow.cones());
+		disk.pairing = pairingOfArcs(flow.base(), cut, disk.pairing);
 	}
 
 	double error() const { return error(flow.result.target); }
 	double error(const Target& target) const
 	{
-		return holonomyError(flow.base(), cut, disk, flow.cones(), target);
+		return closingError(flow.base(), cut, disk, target);
 	}
 	FuchsianGroup group() const
 	{
-		return fuchsianGroup(flow.base(), cut, disk.pairing, flow.cones());
+		return fuchsianGroup(flow.base(), cut, disk.pairing);
 	}
 
 	/// The same with \p extra at the place of h in the side pairing of the edge of \p side, on its side there.

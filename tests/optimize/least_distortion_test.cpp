@@ -37,7 +37,11 @@ struct CutMap
 	CutMap(const SurfaceMesh& m, const TargetRequest& request, Random& random) : mesh(m)
 	{
 		const FlippedFlow flow(m, request);
-		flat = flatMeshOf(flow.surface(), flow.refinement(flow.cutAnywhere(random)).corners);
+		Component component;
+		component.positions = VertexArray<Point3>(m.positions);
+		component.triangles = m.triangles;
+		flat = flatMeshOf(
+			component, flow.domain, flow.refinement(flow.cutAnywhere(random)).corners);
 		cones = flow.cones();
 	}
 
@@ -59,14 +63,12 @@ struct CutMap
 
 	double extent() const { return flat.box().extent(); }
 
-	Report measured() const
+	Distortion measured() const
 	{
 		std::vector<Triangle2> plane;
 		for (const int f : flat.points.indices())
 			plane.push_back(flat.at(f));
-		Report report;
-		measureDistortion(flat.vertices, mesh.positions, Array<Triangle2>(plane), report);
-		return report;
+		return measureDistortion(flat.vertices, mesh.positions, Array<Triangle2>(plane));
 	}
 };
 
@@ -463,7 +465,7 @@ TEST(LeastDistortion, FallsWithoutTurningATriangle)
 	EXPECT_GE(maps.size(), 8u);
 	int better = 0;
 	for (CutMap& d : maps) {
-		const Report before = d.measured();
+		const Distortion before = d.measured();
 		Measured m(d);
 		const double start = m.energy.evaluate(m.start);
 		const Descent result = d.improve();

@@ -51,16 +51,14 @@ inline Parametrization mapWith(FlatMesh mesh)
 	Parametrization map;
 	map.mesh = std::move(mesh);
 	map.charts.resize(at(*std::max_element(map.mesh.chart.begin(), map.mesh.chart.end()) + 1));
-	map.report.charts = static_cast<int>(map.charts.size());
 	return map;
 }
 
 /// measureDistortion() of the map of face f to \p plane[f].
-inline std::vector<double>
-measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane, Report& report)
+inline Distortion measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
 {
 	return measureDistortion(
-		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane), report);
+		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane));
 }
 
 inline int flippedIn(const FlatMesh& mesh)

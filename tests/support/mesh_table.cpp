@@ -220,14 +220,14 @@ void draw(const FlatMesh& map, const std::vector<Point3>& positions, Outcome& ou
 Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progress)
 {
 	Outcome out;
-	OpenedMesh opened;
 	const std::clock_t start = std::clock();
-	const Parametrization flat =
-		testing::heard(progress, [&] { return chartsInPlane(mesh, {}, options, opened); });
+	const WholeMap whole =
+		testing::heard(progress, [&] { return chartsInPlane(mesh, {}, options); });
+	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;
-	draw(flat.mesh, opened.mesh.positions, out);
+	draw(flat.mesh, whole.opened.mesh.positions, out);
 	out.reversed.assign(out.uv.size(), 0);
 	return out;
 }

@@ -11,8 +11,9 @@ namespace ricci::testing {
 
 OpenedMap::OpenedMap(const SurfaceMesh& input, const VertexInput& values, const Options& options)
 {
-	OpenedMesh opened;
-	map = chartsInPlane(input, values, options, opened);
+	WholeMap whole = chartsInPlane(input, values, options);
+	map = std::move(whole.map);
+	const OpenedMesh& opened = whole.opened;
 	mesh = opened.mesh;
 	for (const Face f : opened.reversed.indices())
 		if (opened.reversed[f])

@@ -1,57 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of the paper on one component.
 #ifndef RICCI_FLATTEN_H
 #define RICCI_FLATTEN_H
 
-#include "cut/cut_graph.h"
+#include "cones/target_curvature.h"
 #include "flow/ricci_flow.h"
-#include "hyperbolic/group_of_cut.h"
-#include "layout/flat_mesh.h"
-#include "layout/planar_layout.h"
+#include "layout/parametrization.h"
 #include "mesh/component.h"
+#include "mesh/flow_domain.h"
 #include "parametrize.h"
 
-#include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace ricci {
 
-/// One component mapped to the plane or to the Poincaré disk: what its stages have found.
-struct ComponentMap
+/// What the flow of a component is to do.
+struct FlowPlan
 {
-	SurfaceType type;
-	FlowResult flow;
-	VertexArray<char> cones; ///< 1 at vertices inside that are not flat
-	CutGraph cut;
-	PlanarLayout layout; ///< on the triangulation of the cut
-	FlatMesh mesh;       ///< what is given back
-	double scale = 1.0;  ///< lengths in the layout over those of the flow's metric
-	FuchsianGroup group; ///< hyperbolic
-
-	bool hasFreeSeams = false;      ///< the finish has let seams go
-	std::vector<std::string> notes; ///< what was chosen, in sentences
-	Report report;                  ///< but for what the flow and the cut say: asParametrization()
+	FlowDomain domain;
+	InitialPacking start; ///< 4.1
+	TargetRequest request;
+	Target target; ///< 5.2, 5.3; chosen at each start anew where edges are swapped (5.4)
 };
 
-/// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
-/// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
-/// result by other formulas.
-/// \param alternative alternative(cost) tells what another map costs (MapCost), or kNoAlternative, where this
-/// one is expected to cost so much. Called with 0, in another thread if there is one, beside the first stages,
-/// and again once a target is chosen by what it is expected to cost.
-/// \return none if the target is expected to cost more than that
-/// \throw what the stages throw
-std::optional<ComponentMap> flattenToPlane(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options,
-	const std::function<double(double)>& alternative = [](double) { return kNoAlternative; });
+/// The domain of the flow to the plane, the initial packing, and what the target is chosen from.
+FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options);
 
-/// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
+/// Chooses the target.
+/// \param alternative see ConeRequest
+/// \throw as chooseTarget()
+void completePlan(const Options& options, double alternative, FlowPlan& plan);
+
+/// One component in the plane: flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the result
+/// by other formulas.
+/// \return one chart, in the component's numbers
+/// \throw what the stages throw
+Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options);
+
+/// The same with the target that is chosen without an alternative.
+Parametrization
+flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
+
+/// The same in the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.
-ComponentMap flattenToDisk(
+Parametrization flattenToDisk(
 	const Component& component, const VertexInput& input, const HyperbolicOptions& options);
+
+/// A map of a component in several charts without overlap, in the component's numbers.
+///
+/// Where nearly all curvature of a surface lies at its creases, what is between them is its own flat metric,
+/// and a flow that has to spread that curvature over the surface distorts what could lie flat. The component
+/// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
+/// across creases again where they have room: a crease carries no curvature, only its corners do, so that
+/// joining distorts nothing. Creases are all edges above one of several angles, each of which is tried; the map
+/// that costs least is taken (MapCost).
+/// \param maxBetween share of the curvature that may be left between creases
+/// \return none where more is left, there are no creases, or there is no memory for it (Task::memoryLimit())
+/// \throw what the stages throw
+std::optional<Parametrization>
+unfold(const Component& component, const Options& options, double maxBetween);
+
+/// The charts of a component, without overlap unless they are to be those of the flow: Automatic takes the flow's or,
+/// where that costs less, those of the surface unfolded between its creases.
+Parametrization
+mapToPlane(const Component& component, const VertexInput& input, const Options& options);
+
+/// What a map of a component costs.
+MapCost costOf(const Parametrization& map);
+
+/// Divides charts that overlap, unless the charts are to be those of the flow.
+void separateCharts(const Options& options, Parametrization& map);
 
 /// Whether a component is to be one chart with the boundary that is asked for.
 inline bool isOneChart(const Options& options)

@@ -2,17 +2,13 @@
 #include "flatten_steps.h"
 
 #include "base/numbers.h"
-#include "base/task.h"
 #include "base/tolerances.h"
-#include "cones/area_change.h"
-#include "flow/ricci_flow.h"
+#include "cut/seam_cost.h"
 #include "measure/period_matrix.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <utility>
 
 namespace ricci {
@@ -25,11 +21,13 @@ constexpr int kMaxPeriodGenus = 10;
 /// Share of the part after the flow that the overlay takes before it is laid out.
 constexpr double kOverlay = 0.35;
 
-/// Flows after the first one, and those in a row that may bring nothing: where areas are to be kept so
-/// far, and where the map is to cost little.
-constexpr int kMaxRounds = 6, kMaxVainRounds = 2, kMaxCheaper = 2, kMaxVainCheaper = 1;
-
 } // namespace
+
+void FlowLog::add(const Target& target)
+{
+	logLines(target.notes);
+	notes.insert(notes.end(), target.notes.begin(), target.notes.end());
+}
 
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount)
 {
@@ -44,6 +42,19 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 			values.prescribed[v] = input.targetCurvature[positionOf(component.vertex[v])];
 	}
 	return values;
+}
+
+FlowResult runFlow(
+	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
+	const FlowOptions& options,
+	FlowLog& log)
+{
+	log.add(target);
+	advance(0.0, "Solving for the metric");
+	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
+	return runRicciFlow(surface, std::move(start), target, options, log.states);
 }
 
 void logFlow(const FlowResult& flow, const FlowOptions& options)
@@ -75,16 +86,7 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
-OverlayPieces
-flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
-{
-	if (!isRefined(options))
-		return {};
-	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
-}
-
-CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones)
+CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, VertexArray<char> cones)
 {
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;
@@ -92,149 +94,106 @@ CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const Verte
 	for (const Edge e : domain.isForeign.indices())
 		if (domain.isForeign[e])
 			cost[e] = std::numeric_limits<double>::infinity();
-	CutGraph cut = cutToDisk(t, cost, cones);
+	CutGraph cut = cutToDisk(t, cost, std::move(cones));
 	if (domain.holes > 0)
-		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cones, cut);
+		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cut);
 	return cut;
 }
 
-SurfaceLayout placeCorners(
-	const FlowDomain& domain, OverlayPieces overlay, const FlowOptions& options, ComponentMap& map)
+OverlayPieces
+flowOverlay(const FlowDomain& domain, const FlowOptions& options, const FlowResult& flow)
 {
 	if (!isRefined(options))
-		return layOutCorners(domain, map.flow, map.cut.isCut);
-	SurfaceLayout layout = layOutRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
-	map.mesh = std::move(layout.refinement);
-	return layout;
+		return {};
+	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
+	return divideStartTriangles(flow, domain.surface.triangulation.faceCount());
 }
 
-double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
+SurfaceLayout layOutSurface(
+	const FlowDomain& domain,
+	OverlayPieces overlay,
+	const FlowOptions& options,
+	const FlowResult& flow,
+	const EdgeArray<char>& isCut)
 {
-	double length = 0.0;
-	for (const Edge e : cut.isCut.indices())
-		length += cut.isCut[e] ? lengths[e] : 0.0;
-	return length;
+	return isRefined(options) ? layOutRefinement(domain, flow, std::move(overlay), isCut)
+							  : layOutCorners(domain, flow, isCut);
 }
 
-void describe(const Component& component, const FlowDomain& domain, ComponentMap& map)
+InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow)
 {
-	map.type = domain.surface.topology.type;
-	map.report.components = 1;
-	map.report.eulerCharacteristic = map.type.eulerCharacteristic();
-	map.report.genus = map.type.genus;
-	map.report.boundaryLoops = map.type.boundaryLoops;
-	map.report.cappedHoles = domain.holes;
+	InvariantReport report;
+	if (type.boundaryLoops > 0 || type.genus < 1 || type.genus > kMaxPeriodGenus)
+		return report;
+	advance(0.0, "Period matrix");
+	const IntrinsicMesh& start = flow.start.mesh;
+	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths, flow.order);
+	for (const auto row : periods.omega.rowwise())
+		report.periodMatrix.insert(report.periodMatrix.end(), row.begin(), row.end());
+	if (periods.omega.size() > 0)
+		report.periodError = periods.error;
+	return report;
+}
+
+bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation output)
+{
+	return output == OutputTriangulation::KeepMesh &&
+		   (flow.flipCount() > 0 || flow.doubled || log.swaps > 0 || log.splits > 0);
+}
+
+void logComponent(const Component& component, const SurfaceType& type)
+{
 	logLine(
 		"Component of " + std::to_string(component.positions.size()) + " vertices, " +
-		std::to_string(component.triangles.size()) + " faces: " + map.type.name() + ".");
+		std::to_string(component.triangles.size()) + " faces: " + type.name() + ".");
 }
 
-void noteTarget(const Target& target, ComponentMap& map)
+Parametrization withoutMap(
+	const Component& component,
+	const FlowDomain& domain,
+	const FlowResult& flow,
+	FlowLog log,
+	const CutGraph& cut,
+	double scale)
 {
-	logLines(target.notes);
-	map.notes.insert(map.notes.end(), target.notes.begin(), target.notes.end());
-}
-
-FlowResult runFlow(
-	const EmbeddedSurface& surface,
-	InitialPacking start,
-	const Target& target,
-	const FlowOptions& options,
-	ComponentMap& map)
-{
-	noteTarget(target, map);
-	advance(0.0, "Solving for the metric");
-	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
-	return runRicciFlow(surface, std::move(start), target, options, map.report.flowStates);
-}
-
-Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
-{
-	const Triangulation& t = domain.surface.triangulation;
-	const bool isSplit = !domain.corners.empty();
-	Array<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
-	for (const int f : corners.indices()) {
-		const auto h = isSplit ? domain.corners[Face(f)] : t.halfedges(Face(f));
-		corners[f] = {layout[h[0]], layout[h[1]], layout[h[2]]};
+	Parametrization part;
+	const Target& target = flow.target;
+	for (const Vertex v : component.vertex.indices()) {
+		part.u.push_back(flow.u[v] + std::log(scale));
+		part.targetCurvature.push_back(target.fixed[v] ? flow.curvature[v] : target.curvature[v]);
 	}
-	return corners;
-}
+	for (const Vertex v : cut.cones.indices())
+		if (cut.cones[v] && target.used == TargetUsed::PlacedCones)
+			part.placedCones.push_back(v.number());
+	part.notes = std::move(log.notes);
+	part.charts.emplace_back();
 
-FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout)
-{
-	return flatMeshOf(
-		Array<Triangle>(component.triangles),
-		cornersOf(domain, layout),
-		component.positions.values());
-}
-
-void measurePeriods(ComponentMap& map)
-{
-	if (map.type.boundaryLoops > 0 || map.type.genus < 1 || map.type.genus > kMaxPeriodGenus)
-		return;
-	advance(0.0, "Period matrix");
-	const IntrinsicMesh& start = map.flow.start.mesh;
-	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths, map.flow.order);
-	for (const auto row : periods.omega.rowwise())
-		map.report.periodMatrix.insert(map.report.periodMatrix.end(), row.begin(), row.end());
-	if (periods.omega.size() > 0)
-		map.report.periodError = periods.error;
-}
-
-bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output)
-{
-	const bool isBent = map.flow.flipCount() > 0 || map.flow.doubled || map.report.edgeSwaps > 0 ||
-						map.report.boundarySplits > 0;
-	return map.report.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
-}
-
-void keepAreas(
-	const EmbeddedSurface& surface,
-	const TargetRequest& request,
-	const Options& options,
-	ComponentMap& map)
-{
-	FlowResult& best = map.flow;
-	std::unique_ptr<const FlowResult> last; // where it is not the best
-	const auto propose = [&]() -> std::optional<FlowResult> {
-		const FlowResult& before = last ? *last : best;
-		if (keepsAreas(surface, before))
-			return std::nullopt; // without the cost of another start
-		auto next = attempt("the metric before it stays", [&]() -> std::optional<FlowResult> {
-			InitialPacking start = initialPacking(surface, options);
-			const auto target = targetToKeepAreas(surface, start, before, request);
-			if (!target)
-				return std::nullopt;
-			return runFlow(surface, std::move(start), *target, options, map);
-		});
-		return next ? std::move(*next) : std::nullopt;
-	};
-	const auto take = [&](FlowResult next) {
-		const bool isBest = areaCost(surface, next) <= areaCost(surface, best);
-		last.reset();
-		if (isBest)
-			best = std::move(next);
-		else
-			last = std::make_unique<const FlowResult>(std::move(next));
-		return isBest;
-	};
-	const bool isForCost = best.target.expected.has_value();
-	const int round = improve(
-		isForCost ? kMaxCheaper : kMaxRounds,
-		isForCost ? kMaxVainCheaper : kMaxVainRounds,
-		propose,
-		take);
-	if (!isForCost && round == kMaxRounds) {
-		++map.report.endedEarly;
-		logLine("The search for cones that keep areas has ended at the bound on its flows.");
-	}
-	if (round > 0) {
-		const AreaChange change = areaChange(surface, flowFactor(best));
-		logLine(
-			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
-			", the mean of the factor or its inverse " + numberText(change.mean, 3) +
-			", the energy " + numberText(change.energy, 3) + ".");
-	}
+	const SurfaceType& type = domain.surface.topology.type;
+	Report& report = part.report;
+	report.components = 1;
+	report.eulerCharacteristic = type.eulerCharacteristic();
+	report.genus = type.genus;
+	report.boundaryLoops = type.boundaryLoops;
+	report.cappedHoles = domain.holes;
+	report.iterations = log.roundingSteps + (log.states.empty() ? 0 : log.states.back().step);
+	report.flowStates = std::move(log.states);
+	report.maxCurvatureError = flow.residual;
+	report.residualFloor = flow.floor;
+	report.lengthened = flow.start.lengthened.largest;
+	report.flips = flow.flipCount();
+	report.edgeSwaps = log.swaps;
+	report.boundarySplits = log.splits;
+	report.brokenTriangles = flow.metric->brokenTriangles();
+	if (target.background == Background::EuclideanPlane)
+		report.targetUsed = target.used;
+	report.choice = target.choice;
+	report.expectedSpread = target.expectedSpread;
+	report.endedEarly = log.endedEarly;
+	report.cones = static_cast<int>(std::count(cut.cones.begin(), cut.cones.end(), 1));
+	report.seamEdges = cut.edgeCount;
+	for (const Edge e : cut.isCut.indices())
+		report.seamLength += cut.isCut[e] ? domain.surface.lengths[e] : 0.0;
+	return part;
 }
 
 } // namespace ricci

@@ -6,7 +6,8 @@
 #include "base/task.h"
 #include "cut/cut_graph.h"
 #include "flatten_steps.h"
-#include "hyperbolic/holonomy_check.h"
+#include "hyperbolic/closing_error.h"
+#include "hyperbolic/group_of_cut.h"
 #include "hyperbolic/hyperbolic_target.h"
 #include "layout/hyperbolic_layout.h"
 #include "measure/chart_check.h"
@@ -41,77 +42,98 @@ double radiusOf(const PlanarLayout& layout)
 	return 2.0 * std::atanh(std::min(1.0, r));
 }
 
+/// A component laid out in the disk.
+struct DiskMap
+{
+	SurfaceLayout layout;
+	FuchsianGroup group;
+	double closingError = 0.0;
+};
+
 /// Lays the component out in the disk, with a longer cut if floats cannot hold the first one, and finds its
 /// group.
-void layOut(
+DiskMap layOut(
 	const FlowDomain& domain,
 	OverlayPieces overlay,
 	const HyperbolicOptions& options,
-	ComponentMap& map)
+	const FlowResult& flow,
+	CutGraph& cut)
 {
 	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
-	SurfaceLayout disk = placeCorners(domain, std::move(overlay), options, map);
-	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
-		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options.method), map.cones);
-		disk = placeCorners(domain, flowOverlay(domain, options, map), options, map);
+	DiskMap map;
+	map.layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
+	if (const double radius = radiusOf(map.layout.corners); radius > kWideRadius) {
+		cut = cutAroundCentre(t, cutCost(domain, flow, options.method), std::move(cut.cones));
+		map.layout =
+			layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
 		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
-			numberText(radiusOf(disk.corners), 3) + " out.");
+			numberText(radiusOf(map.layout.corners), 3) + " out.");
 	}
-	disk.pairing = pairingOfArcs(t, map.cut, disk.pairing, map.cones);
-	map.report.relationError = holonomyError(t, map.cut, disk, map.cones, map.flow.target);
+	map.layout.pairing = pairingOfArcs(t, cut, map.layout.pairing);
+	map.closingError = closingError(t, cut, map.layout, flow.target);
 	advance(1.0 - kAfterFlow, "Canonical generators");
-	map.group = fuchsianGroup(t, map.cut, disk.pairing, map.cones, options.canonicalGenerators);
-	map.layout = std::move(disk.corners);
+	map.group = fuchsianGroup(t, cut, map.layout.pairing, options.canonicalGenerators);
 	if (options.canonicalGenerators && !map.group.isCanonical())
 		logLine(
 			"There are no canonical generators: they would move points farther than floating point "
 			"numbers can tell.");
+	return map;
 }
 
 } // namespace
 
-ComponentMap flattenToDisk(
+Parametrization flattenToDisk(
 	const Component& component, const VertexInput& input, const HyperbolicOptions& options)
 {
-	ComponentMap map;
 	advance(0.0, "Circle packing");
 	const FlowDomain domain = flowDomain(component, Holes::Boundaries);
-	describe(component, domain, map);
+	const SurfaceType& type = domain.surface.topology.type;
+	logComponent(component, type);
 	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
 	advance(0.0, "Choosing the target");
 	const TargetInput values = targetInput(component, input, component.vertex.size());
 	const Target target =
-		chooseHyperbolicTarget(domain.surface.topology, options, values);        // 5.2, 5.3
-	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
-	logFlow(map.flow, options);
+		chooseHyperbolicTarget(domain.surface.topology, options, values); // 5.2, 5.3
+	FlowLog log;
+	const FlowResult flow = runFlow(domain.solved(), std::move(start), target, options, log); // 4.2
+	logFlow(flow, options);
 
-	map.cones = conesOf(domain.surface, map.flow.target);
 	const int threads = threadsFor(domain.surface.triangulation.faceCount());
 	OverlayPieces overlay;
+	CutGraph cut;
 	besides(
 		threads,
-		[&] { overlay = flowOverlay(domain, options, map); },
+		[&] { overlay = flowOverlay(domain, options, flow); },
 		[&] { // 4.3
-			map.cut = cutDomain(domain, cutCost(domain, map.flow, options.method), map.cones);
+			cut = cutDomain(
+				domain,
+				cutCost(domain, flow, options.method),
+				conesOf(domain.surface, flow.target));
 		});
+	DiskMap map;
+	InvariantReport invariants;
 	besides(
 		threads,
-		[&] { layOut(domain, std::move(overlay), options, map); }, // 4.3
+		[&] { map = layOut(domain, std::move(overlay), options, flow, cut); }, // 4.3
 		[&] {
-			measurePeriods(map);
-			requireMetric(map.flow, domain.solved().topology.boundary);
+			invariants = measurePeriods(type, flow);
+			requireMetric(flow, domain.solved().topology.boundary);
 		});
-	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
-	map.report.hyperbolicArea = map.flow.area;
+	invariants.hyperbolicArea = flow.area;
+	invariants.relationError = map.closingError;
 
 	advance(1.0, "Checking the result");
-	if (!isRefined(options))
-		map.mesh = flatMesh(component, domain, map.layout);
-	requireDisk(map.mesh, map.flow, mayBeFlipped(map, options.output));
-	return map;
+	const bool mayFlip = isBent(flow, log, options.output);
+	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, 1.0);
+	static_cast<InvariantReport&>(part.report) = std::move(invariants);
+	part.charts.front().group = std::move(map.group);
+	part.mesh = isRefined(options) ? std::move(map.layout.refinement)
+								   : flatMeshOf(component, domain, map.layout.corners);
+	requireDisk(part.mesh, flow, mayFlip);
+	return part;
 }
 
 } // namespace ricci

@@ -4,13 +4,13 @@
 #include "base/convex_hull.h"
 #include "base/parallel.h"
 #include "base/task.h"
+#include "cones/area_change.h"
 #include "cones/make_seamless.h"
 #include "cones/target_curvature.h"
 #include "cut/cut_graph.h"
 #include "cut/seam_cost.h"
 #include "flatten_steps.h"
 #include "flow/swapped_flow.h"
-#include "hyperbolic/holonomy_check.h"
 #include "measure/chart_check.h"
 #include "measure/distortion.h"
 #include "measure/invariants.h"
@@ -21,6 +21,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -40,6 +43,10 @@ Holes holesOf(const Options& options)
 	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
 }
 
+/// Flows after the first one, and those in a row that may bring nothing: where areas are to be kept so
+/// far, and where the map is to cost little.
+constexpr int kMaxRounds = 6, kMaxVainRounds = 2, kMaxCheaper = 2, kMaxVainCheaper = 1;
+
 /// What the target of a surface is chosen from, whose first vertices are the component's.
 TargetRequest targetRequest(
 	const Component& component,
@@ -56,145 +63,207 @@ TargetRequest targetRequest(
 	return request;
 }
 
-/// The cut through the cones.
-void cutOpen(
-	const FlowDomain& domain, VertexArray<char> cones, const Options& options, ComponentMap& map)
+/// The cut through the cones of a target.
+CutGraph cutOpen(const FlowDomain& domain, VertexArray<char> cones, const Options& options)
 {
 	const EmbeddedSurface& surface = domain.surface;
-	map.cones = std::move(cones);
-	map.cut = cutDomain(
+	return cutDomain(
 		domain,
 		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
-		map.cones);
-}
-
-/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
-/// axes, from the origin.
-void turnUpright(double scale, ComponentMap& map)
-{
-	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
-	const auto move = [&](Point2& p) {
-		const Point2 q = r.inFrame(p);
-		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
-	};
-	for (Point2& p : map.layout.points)
-		move(p);
-	for (Point2& p : map.mesh.place)
-		move(p);
-}
-
-/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
-/// \param t the triangulation of the layout
-void conformalInvariants(const Triangulation& t, ComponentMap& map)
-{
-	const Target& target = map.flow.target;
-	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (map.type.isTorus() && flat) {
-		const std::complex<double> tau = torusModulus(t, map.layout, map.cut);
-		map.report.torusTauRe = tau.real();
-		map.report.torusTauIm = tau.imag();
-	}
-	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
-		map.report.annulusModulus =
-			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
-	if (target.corners)
-		map.report.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+		std::move(cones));
 }
 
 /// The flow with edge swaps (5.4), and the domain that it leaves.
-void flowWithEdgeSwaps(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options,
-	FlowDomain& domain,
-	ComponentMap& map)
+FlowResult
+flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& plan, FlowLog& log)
 {
 	const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
-		Target target =
-			chooseTarget(surface, start, targetRequest(component, input, options, surface));
-		if (map.report.flowStates.empty())
-			noteTarget(target, map);
+		plan.request.selected.resize(surface.positions.size(), 0); // where the boundary is split
+		plan.request.prescribed.resize(surface.positions.size(), 0.0);
+		Target target = chooseTarget(surface, start, plan.request);
+		if (log.states.empty())
+			log.add(target);
 		return target;
 	};
 	advance(0.0, "Solving for the metric");
 	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
-	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.report.flowStates);
-	domain = std::move(swapped.domain);
-	map.flow = std::move(swapped.flow);
-	map.report.edgeSwaps = swapped.swaps;
-	map.report.boundarySplits = swapped.splits;
+	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, log.states);
+	plan.domain = std::move(swapped.domain);
+	log.swaps = swapped.swaps;
+	log.splits = swapped.splits;
+	return std::move(swapped.flow);
 }
 
-/// makeSeamless() as the options say.
-void makeSeamless(
+/// The promise of Target::maxSpread: while a metric changes areas more than its target was chosen for, runs the flow
+/// again, to targetToKeepAreas(), in a bounded number of rounds.
+/// \param best the first one
+/// \return the metric that keeps areas best
+/// \throw Stopped
+FlowResult keepAreas(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	ComponentMap& map)
+	FlowResult best,
+	FlowLog& log)
+{
+	std::unique_ptr<const FlowResult> last; // where it is not the best
+	const auto propose = [&]() -> std::optional<FlowResult> {
+		const FlowResult& before = last ? *last : best;
+		if (keepsAreas(surface, before))
+			return std::nullopt; // without the cost of another start
+		auto next = attempt("the metric before it stays", [&]() -> std::optional<FlowResult> {
+			InitialPacking start = initialPacking(surface, options);
+			const auto target = targetToKeepAreas(surface, start, before, request);
+			if (!target)
+				return std::nullopt;
+			return runFlow(surface, std::move(start), *target, options, log);
+		});
+		return next ? std::move(*next) : std::nullopt;
+	};
+	const auto take = [&](FlowResult next) {
+		const bool isBest = areaCost(surface, next) <= areaCost(surface, best);
+		last.reset();
+		if (isBest)
+			best = std::move(next);
+		else
+			last = std::make_unique<const FlowResult>(std::move(next));
+		return isBest;
+	};
+	const bool isForCost = best.target.expected.has_value();
+	const int round = improve(
+		isForCost ? kMaxCheaper : kMaxRounds,
+		isForCost ? kMaxVainCheaper : kMaxVainRounds,
+		propose,
+		take);
+	if (!isForCost && round == kMaxRounds) {
+		++log.endedEarly;
+		logLine("The search for cones that keep areas has ended at the bound on its flows.");
+	}
+	if (round > 0) {
+		const AreaChange change = areaChange(surface, flowFactor(best));
+		logLine(
+			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
+			", the mean of the factor or its inverse " + numberText(change.mean, 3) +
+			", the energy " + numberText(change.energy, 3) + ".");
+	}
+	return best;
+}
+
+/// Turns rotations across seams into quarter turns where they are asked for.
+FlowResult makeSeamless(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	FlowResult flow,
+	FlowLog& log)
 {
 	if (options.method != Method::IntrinsicFlips)
-		return;
+		return flow;
 	const FlowTo flowTo = [&](const Target& target) {
 		return attempt("the metric before it stays", [&] {
-			return runFlow(surface, initialPacking(surface, options), target, options, map);
+			return runFlow(surface, initialPacking(surface, options), target, options, log);
 		});
 	};
-	map.report.iterations = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
+	log.roundingSteps = makeSeamless(surface, request, options.epsilon, flowTo, flow);
+	return flow;
 }
 
-/// Area in the flow's metric of the triangles that are given back, without caps.
-double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
+/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
+/// \param area of \p layout
+InvariantReport conformalInvariants(
+	const EmbeddedSurface& surface,
+	const PlanarLayout& layout,
+	const FlowResult& flow,
+	const CutGraph& cut,
+	double area)
 {
-	if (domain.holes == 0)
-		return map.flow.area;
-	double area = 0.0;
-	for (const Triangle2& p :
-		 map.mesh.size() > 0 ? map.mesh.corners() : cornersOf(domain, map.layout))
-		area += 0.5 * doubledArea(p);
-	return area;
+	InvariantReport report;
+	const Triangulation& t = surface.triangulation;
+	const SurfaceType& type = surface.topology.type;
+	const Target& target = flow.target;
+	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+	if (type.isTorus() && flat) {
+		const std::complex<double> tau = torusModulus(t, layout, cut);
+		report.torusTauRe = tau.real();
+		report.torusTauIm = tau.imag();
+	}
+	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount > 0)
+		report.annulusModulus = annulusModulus(t, layout, cut, area);
+	if (target.corners)
+		report.rectangleAspect = rectangleAspect(t, layout, *target.corners);
+	return report;
 }
 
-/// Lays the component out in the plane, upright and with its area unless the boundary keeps its metric. Drops
-/// seams from the cut round which the metric closes.
-void layOut(
+/// A component laid out in the plane.
+struct PlaneMap
+{
+	FlatMesh mesh;      ///< of its own faces
+	double scale = 1.0; ///< lengths in it over those of the flow's metric
+	InvariantReport invariants;
+	FlatMesh refinement; ///< where that is given back
+	FinishCounts finished;
+	bool hasFreeSeams = false; ///< the finish has let seams go
+};
+
+/// Scales points and moves them from the frame of a rectangle to one along the axes, from the origin.
+void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points)
+{
+	for (Point2& p : points) {
+		const Point2 q = r.inFrame(p);
+		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
+	}
+}
+
+/// Lays the component out in the plane, upright and with its area unless the boundary keeps its metric.
+/// \param cut loses the seams round which the metric closes
+PlaneMap layOut(
 	const Component& component,
 	const FlowDomain& domain,
-	OverlayPieces overlay,
 	const Options& options,
-	ComponentMap& map)
+	const FlowResult& flow,
+	CutGraph& cut)
 {
+	OverlayPieces overlay = flowOverlay(domain, options, flow);
 	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
-	const bool mayChangeCut = map.type.boundaryLoops - domain.holes > 1;
-	map.layout = placeCorners(domain, std::move(overlay), options, map).corners;
-	if (mayChangeCut) {
+	SurfaceLayout layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
+	if (domain.surface.topology.type.boundaryLoops - domain.holes > 1) {
 		// A hole round which the metric closes needs no seam.
-		const int edges = map.cut.edgeCount;
+		const int edges = cut.edgeCount;
 		dropSeamsToHoles(
-			t,
-			domain.surface.lengths,
-			loopsThatClose(t, map.layout, map.cut.isCut),
-			map.cones,
-			map.cut);
-		if (map.cut.edgeCount < edges)
-			map.layout =
-				placeCorners(domain, flowOverlay(domain, options, map), options, map).corners;
+			t, domain.surface.lengths, loopsThatClose(t, layout.corners, cut.isCut), cut);
+		if (cut.edgeCount < edges)
+			layout =
+				layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
 	}
-	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
-		map.scale = std::sqrt(
-			surfaceArea(component.positions.values(), component.triangles) /
-			areaInPlane(domain, map));
-	turnUpright(map.scale, map);
-	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
-	conformalInvariants(t, map);
+	PlaneMap map;
+	map.mesh = flatMeshOf(component, domain, layout.corners);
+	map.refinement = std::move(layout.refinement);
+	if (!flow.target.hasFixed()) { // else the boundary keeps its metric, which fixes the scale
+		double area = flow.area;   // of what is given back, without caps
+		if (domain.holes > 0) {
+			area = 0.0;
+			const FlatMesh& given = isRefined(options) ? map.refinement : map.mesh;
+			for (const int f : given.points.indices())
+				area += 0.5 * doubledArea(given.at(f));
+		}
+		map.scale =
+			std::sqrt(surfaceArea(component.positions.values(), component.triangles) / area);
+	}
+	const OrientedRectangle upright = minAreaRectangle(layout.corners.points.values());
+	for (Array<Point2>* points : {&layout.corners.points, &map.mesh.place, &map.refinement.place})
+		moveUpright(upright, map.scale, *points);
+	map.invariants = conformalInvariants(
+		domain.surface, layout.corners, flow, cut, map.scale * map.scale * flow.area);
+	return map;
 }
 
 /// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
-Finish finishOf(const Options& options, const ComponentMap& map)
+Finish finishOf(const FlowDomain& domain, const Options& options, const Target& target)
 {
 	const bool isPrescribed = options.cones.rounding == ConeRounding::QuarterTurns ||
-							  (map.type.boundaryLoops > 0 && !map.flow.target.hasFixed());
+							  (!domain.surface.topology.type.isClosed() && !target.hasFixed());
 	if (options.finish != Finish::LeastStretch || !isPrescribed)
 		return options.finish;
 	logLine("The boundary or the turns across seams are prescribed: least distortion, not least "
@@ -203,126 +272,133 @@ Finish finishOf(const Options& options, const ComponentMap& map)
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.
-void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
+void finish(
+	const FlowDomain& domain,
+	const Options& options,
+	const Target& target,
+	const VertexArray<char>& cones,
+	PlaneMap& map)
 {
 	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
 	advance(1.0 - kAfterFlow, "Repairing the map");
-	const Finish finish = finishOf(options, map);
-	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
-	const FinishCounts counts = finishInPlane(
-		flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
-	map.report.finishMoved = counts.moved;
-	map.report.endedEarly += counts.endedEarly;
+	const Finish finish = finishOf(domain, options, target);
+	const Array<Point2> before = map.mesh.place;
+	map.finished = finishInPlane(
+		map.mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.hasFreeSeams = finish == Finish::LeastStretch;
-	flat.place.swap(map.layout.points);
-	if (map.layout.points != flat.place) // its border may have moved
-		turnUpright(1.0, map);
+	if (map.mesh.place != before) // its border may have moved
+		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
 }
 
-/// How the lengths of a free boundary compare in the map and on the mesh, and how far turns across seams are
-/// from multiples of a right angle, where they should be such.
-void measureBorders(const EmbeddedSurface& surface, const Options& options, ComponentMap& map)
+/// How the lengths of a free boundary compare in the map and on the mesh.
+void measureBoundary(const FlatMesh& map, Report& report)
 {
-	if (options.cones.rounding == ConeRounding::QuarterTurns)
-		map.report.holonomyError =
-			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
-	if (!map.flow.target.hasFixed())
-		return;
-	const Triangulation& t = surface.triangulation;
 	double least = std::numeric_limits<double>::infinity(), most = 0.0;
-	for (const Halfedge h : t.exteriorHalfedges()) {
-		const Halfedge side = h.twin();
-		const double before = surface.lengths[h.edge()];
-		if (!(before > 0.0))
+	for (const Corner side : map.across.indices()) {
+		if (map.across[side].isValid() || !(map.lengths[side] > 0.0))
 			continue;
-		const Point2 along = map.layout[t.next(side)] - map.layout[side];
-		const double ratio = std::hypot(along[0], along[1]) / before;
+		const double ratio = distance(map.at(side), map.at(side.next())) / map.lengths[side];
 		least = std::min(least, ratio);
 		most = std::max(most, ratio);
 	}
 	if (!(most > 0.0))
 		return;
-	map.report.boundaryRatioMin = least;
-	map.report.boundaryRatioMax = most;
+	report.boundaryRatioMin = least;
+	report.boundaryRatioMax = most;
 	if (std::max(most - 1.0, 1.0 - least) > kKeptLength)
 		logLine(
 			"Free boundary: in the map its edges are " + numberText(least, 3) + " to " +
 			numberText(most, 3) + " times as long as on the mesh.");
 }
 
+int threadsOf(const Component& component)
+{
+	return threadsFor(static_cast<std::int64_t>(component.triangles.size()));
+}
+
 } // namespace
 
-std::optional<ComponentMap> flattenToPlane(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options,
-	const std::function<double(double)>& alternative)
+FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options)
 {
-	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
-	ComponentMap map;
-	FlowDomain domain;
-	InitialPacking start;
-	double other = kNoAlternative;
-	std::vector<std::string> linesOfOther;
-	besides(
-		threads,
-		[&] {
-			advance(0.0, "Circle packing");
-			domain = flowDomain(component, holesOf(options));
-			describe(component, domain, map);
-			if (options.method != Method::EdgeSwaps)
-				start = initialPacking(domain.solved(), options); // 4.1
-		},
-		[&] {
-			Task still(0.0, 0.0);
-			still.keepLines(linesOfOther);
-			other = alternative(0.0);
-		});
-	logLines(linesOfOther);
-	TargetRequest request = targetRequest(component, input, options, domain.solved());
-	request.alternative = other;
+	advance(0.0, "Circle packing");
+	FlowPlan plan;
+	plan.domain = flowDomain(component, holesOf(options));
+	logComponent(component, plan.domain.surface.topology.type);
+	if (options.method != Method::EdgeSwaps)
+		plan.start = initialPacking(plan.domain.solved(), options); // 4.1
+	plan.request = targetRequest(component, input, options, plan.domain.solved());
+	return plan;
+}
+
+void completePlan(const Options& options, double alternative, FlowPlan& plan)
+{
+	plan.request.alternative = alternative;
 	if (options.method == Method::EdgeSwaps)
-		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
-	else {
-		advance(0.0, "Choosing the target");
-		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
-		if (target.expected) {
-			const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
-			const double cost = target.expected->total();
-			if (cost > alternative(cost))
-				return std::nullopt;
-		}
+		return;
+	advance(0.0, "Choosing the target");
+	plan.target = chooseTarget(plan.domain.solved(), plan.start, plan.request); // 5.2, 5.3
+}
+
+Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options)
+{
+	const int threads = threadsOf(component);
+	const FlowDomain& domain = plan.domain;
+	FlowLog log;
+	FlowResult flow;
+	CutGraph cut;
+	if (options.method == Method::EdgeSwaps)
+		flow = flowWithEdgeSwaps(component, options, plan, log); // 5.4
+	else
 		besides(
 			threads,
 			[&] { // 4.2
-				map.flow = runFlow(domain.solved(), std::move(start), target, options, map);
+				flow = runFlow(domain.solved(), std::move(plan.start), plan.target, options, log);
 			},
 			[&] { // 4.3
-				cutOpen(domain, conesOf(domain.surface, target, domain.onHole), options, map);
+				cut = cutOpen(domain, conesOf(domain.surface, plan.target, domain.onHole), options);
 			});
-	}
-	keepAreas(domain.solved(), request, options, map);
-	makeSeamless(domain.solved(), request, options, map);
-	logFlow(map.flow, options);
-	if (auto cones = conesOf(domain.surface, map.flow.target, domain.onHole); !(cones == map.cones))
-		cutOpen(domain, std::move(cones), options, map);
+	flow = keepAreas(domain.solved(), plan.request, options, std::move(flow), log);
+	flow = makeSeamless(domain.solved(), plan.request, options, std::move(flow), log);
+	logFlow(flow, options);
+	if (auto cones = conesOf(domain.surface, flow.target, domain.onHole); cones != cut.cones)
+		cut = cutOpen(domain, std::move(cones), options);
+
+	PlaneMap map;
+	InvariantReport periods;
 	besides(
 		threads,
 		[&] {
-			layOut(component, domain, flowOverlay(domain, options, map), options, map); // 4.3
-			finish(domain, options, map);
+			map = layOut(component, domain, options, flow, cut); // 4.3
+			finish(domain, options, flow.target, cut.cones, map);
 		},
 		[&] {
-			measurePeriods(map);
-			requireMetric(map.flow, domain.solved().topology.boundary);
+			periods = measurePeriods(domain.surface.topology.type, flow);
+			requireMetric(flow, domain.solved().topology.boundary);
 		});
-	measureBorders(domain.surface, options, map);
+	const bool mayFlip = map.finished.moved > 0 || isBent(flow, log, options.output);
+	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
+	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);
+	part.report.periodMatrix = std::move(periods.periodMatrix);
+	part.report.periodError = periods.periodError;
+	part.report.finishMoved = map.finished.moved;
+	part.report.endedEarly += map.finished.endedEarly;
+	if (options.cones.rounding == ConeRounding::QuarterTurns)
+		part.report.holonomyError = quarterTurnError(domain, map.mesh, cut);
+	if (flow.target.hasFixed())
+		measureBoundary(map.mesh, part.report);
 	advance(1.0, "Checking the result");
-	if (!isRefined(options))
-		map.mesh = flatMesh(component, domain, map.layout);
-	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output), !map.hasFreeSeams);
-	return map;
+	part.mesh = std::move(isRefined(options) ? map.refinement : map.mesh);
+	requireMap(part.mesh, flow, mayFlip, !map.hasFreeSeams);
+	return part;
+}
+
+Parametrization
+flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
+{
+	FlowPlan plan = startOfPlan(component, input, options);
+	completePlan(options, kNoAlternative, plan);
+	return flattenToPlane(component, std::move(plan), options);
 }
 
 } // namespace ricci

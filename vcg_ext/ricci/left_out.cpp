@@ -86,21 +86,20 @@ void addBeside(Parametrization leftOut, Parametrization& map)
 	map.charts.emplace_back();
 	mesh.append(std::move(own));
 	Report& report = map.report;
-	for (int Report::*count :
-		 {&Report::components,
-		  &Report::iterations,
-		  &Report::flips,
-		  &Report::finishMoved,
-		  &Report::endedEarly,
-		  &Report::eulerCharacteristic,
-		  &Report::genus,
-		  &Report::boundaryLoops,
-		  &Report::seamEdges,
-		  &Report::overlapCuts})
+	for (int Report::*count : std::initializer_list<int Report::*>{
+			 &Report::components,
+			 &Report::iterations,
+			 &Report::flips,
+			 &Report::finishMoved,
+			 &Report::endedEarly,
+			 &Report::eulerCharacteristic,
+			 &Report::genus,
+			 &Report::boundaryLoops,
+			 &Report::seamEdges,
+			 &Report::overlapCuts})
 		report.*count += leftOut.report.*count;
 	report.seamLength += leftOut.report.seamLength;
 	report.leftOutComponents = leftOut.report.components;
-	report.charts = static_cast<int>(map.charts.size());
 }
 
 } // namespace ricci

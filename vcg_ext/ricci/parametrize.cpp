@@ -7,8 +7,8 @@
 #include "charts/pack.h"
 #include "charts/separate_charts.h"
 #include "flatten.h"
+#include "hyperbolic/closing_error.h"
 #include "hyperbolic/finish_disks.h"
-#include "hyperbolic/holonomy_check.h"
 #include "input_indices.h"
 #include "left_out.h"
 #include "measure/distortion.h"
@@ -51,151 +51,36 @@ void checkFlowOptions(const FlowOptions& options)
 		throw InvalidOption(InvalidOption::WithoutFlips);
 }
 
-/// Gives copies of vertices the values of their vertices, where there are any.
-template<class T>
-void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
-{
-	for (std::size_t v = values.size(); !values.empty() && v < opened.vertex.size(); ++v)
-		values.push_back(values[positionOf(opened.vertex[v])]);
-}
-
-/// Opens and checks the mesh.
-/// \param values of the vertices of the opened mesh
-template<class AnyOptions>
-std::vector<Component> open(
-	const SurfaceMesh& mesh,
-	const AnyOptions& options,
-	OneSidedCut cut,
-	VertexInput& values,
-	OpenedMesh& opened,
-	Parametrization& map)
-{
-	checkOptions(options);
-	requireLength("selected", values.selected.size(), mesh.positions.size());
-	requireLength("targetCurvature", values.targetCurvature.size(), mesh.positions.size());
-	advance(0.0, "Checking the mesh");
-	std::vector<Component> components = startMap(mesh, options, cut, opened, map);
-	extendToCopies(opened, values.selected);
-	extendToCopies(opened, values.targetCurvature);
-	return components;
-}
-
-/// Maps every component, and measures the whole.
+/// Maps every component.
 /// \param flatten flatten(component) to a Parametrization
-template<class Flatten, class Measure>
-void mapComponents(
-	const OpenedMesh& opened,
-	const std::vector<Component>& components,
-	const Flatten& flatten,
-	const Measure& measure,
-	Parametrization& map)
+template<class Flatten>
+void mapComponents(const Flatten& flatten, WholeMap& whole)
 {
-	appendComponents(opened, components, flatten, map);
-	map.report.converged = true;
-	map.report.charts = static_cast<int>(map.charts.size());
+	appendComponents(whole.opened, whole.components, flatten, whole.map);
+	whole.map.report.converged = true;
 	advance(kComponentsDone, "Measuring the distortion");
-	measure(opened, map);
-	advance(1.0, "Layout done");
 }
 
-/// Whether Automatic may unfold a component: nothing but the default has been asked for that a flow of the
-/// whole component would have to give.
-bool mayUnfold(const Component& component, const Options& options)
+void setDistortion(Distortion distortion, Parametrization& map)
 {
-	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
-		   isForObjective(options.cones) && options.cones.rounding == ConeRounding::Free &&
-		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
-		   options.charts != Charts::OfTheFlow && !component.hasSeam;
+	map.vertexQC = std::move(distortion.vertexQC);
+	static_cast<DistortionReport&>(map.report) = std::move(distortion);
 }
 
-/// Share of the curvature that may be left between creases where a component is unfolded first.
-constexpr double kMaxCurvatureBetween = 0.25;
-
-/// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
-constexpr double kPoorCost = 6.0;
-
-/// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
-/// spread of areas below these are tried: the linear model promises too much where scales differ much.
-constexpr double kSpreadsInstead[] = {0.5, 0.25};
-
-/// "energy 4.01, seams 11.9 (objective 4.6)"
-std::string costText(const Parametrization& map)
+void measure(WholeMap& whole)
 {
-	const MapCost cost = costOf(map);
-	return "energy " + numberText(cost.energy, 3) + ", seams " + numberText(cost.seams, 3) +
-		   " (objective " + numberText(cost.total(), 3) + ")";
-}
-
-/// The charts of a component: those of the flow or, where that costs less, of the surface unfolded between
-/// its creases.
-Parametrization
-mapToPlane(const Component& component, const VertexInput& input, const Options& options)
-{
-	std::optional<Parametrization> unfolded;
-	const auto alternative = [&](double cost) {
-		const bool isPoor = cost > kPoorCost;
-		if (!unfolded && (isPoor || cost == 0.0) && mayUnfold(component, options))
-			unfolded = unfold(component, options, isPoor ? 1.0 : kMaxCurvatureBetween);
-		return unfolded ? costOf(*unfolded).total() : kNoAlternative;
-	};
-	const auto chosen = [](const std::string& choice, Parametrization map) {
-		map.report.choice = choice;
-		map.notes.push_back("Automatic: " + choice + ".");
-		logLine(map.notes.back());
-		return map;
-	};
-	std::optional<ComponentMap> flow = flattenToPlane(component, input, options, alternative);
-	const auto cut = [&] { return "cut along creases and unfolded: " + costText(*unfolded); };
-	if (!flow) {
-		const std::string choice = cut() + "; cones are expected to cost more";
-		return chosen(choice, std::move(*unfolded));
-	}
-	advance(1.0, "Looking for overlaps");
-	Parametrization map = asParametrization(component, std::move(*flow));
-	separateCharts(options, map);
-	double cost = costOf(map).total();
-	for (const double spread : kSpreadsInstead) {
-		if (std::min(cost, alternative(cost)) <= kPoorCost ||
-			map.report.targetUsed != TargetUsed::PlacedCones || !isForObjective(options.cones))
-			break;
-		Options other = options;
-		other.cones.distortion = spread;
-		auto next = attempt("the map before it stays", [&] {
-			Parametrization part =
-				asParametrization(component, *flattenToPlane(component, input, other));
-			separateCharts(options, part);
-			return part;
-		});
-		if (next && costOf(*next).total() < cost) {
-			cost = costOf(*next).total();
-			next->report.iterations += map.report.iterations;
-			map = std::move(*next);
-		}
-	}
-	const bool isUnfolded = alternative(cost) < cost;
-	if (!unfolded)
-		return map;
-	const std::string whole = "as a whole: " + costText(map);
-	const int steps = unfolded->report.iterations + map.report.iterations;
-	const std::string choice =
-		isUnfolded ? cut() + "; " + whole : map.report.choice + "; " + whole + "; " + cut();
-	map = chosen(choice, isUnfolded ? std::move(*unfolded) : std::move(map));
-	map.report.iterations = steps;
-	return map;
-}
-
-void measure(const OpenedMesh& opened, Parametrization& map)
-{
-	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureDistortion(map.mesh.vertices, surface, map.mesh.corners(), map.report);
+	Parametrization& map = whole.map;
+	const std::vector<Point3> surface = map.mesh.onSurface(whole.opened.mesh.positions);
+	setDistortion(measureDistortion(map.mesh.vertices, surface, map.mesh.corners()), map);
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
 /// In the unit disk, before the disks are placed.
-void measureInDisk(const OpenedMesh& opened, Parametrization& map)
+void measureInDisk(WholeMap& whole)
 {
-	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureHyperbolicDistortion(map.mesh, surface, map.report);
+	Parametrization& map = whole.map;
+	const std::vector<Point3> surface = map.mesh.onSurface(whole.opened.mesh.positions);
+	setDistortion(measureHyperbolicDistortion(map.mesh, surface), map);
 }
 
 void note(std::string sentence, Parametrization& map)
@@ -241,33 +126,32 @@ Parametrization mapBeside(
 
 /// The charts of parametrizeHyperbolic() before they are placed, each in the unit disk.
 /// \param leftOut receives the map of the components that have no hyperbolic metric
-Parametrization chartsInDisk(
+WholeMap chartsInDisk(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
 	const HyperbolicOptions& options,
-	OpenedMesh& opened,
 	Parametrization& leftOut)
 {
 	const Task part(0.0, kMapped);
-	Parametrization map;
-	VertexInput values = input;
-	std::vector<Component> components =
-		open(mesh, options, OneSidedCut::ClearOfBoundary, values, opened, map);
-	const std::vector<Component> flat = leaveOut(opened, values, options, components);
-	const double share = static_cast<double>(faceCount(components)) /
-						 static_cast<double>(opened.mesh.triangles.size());
+	WholeMap whole = open(mesh, input, options, OneSidedCut::ClearOfBoundary);
+	const std::vector<Component> flat =
+		leaveOut(whole.opened, whole.values, options, whole.components);
+	const double share = static_cast<double>(faceCount(whole.components)) /
+						 static_cast<double>(whole.opened.mesh.triangles.size());
 	{
 		const Task ofDisks(0.0, share);
 		const auto flatten = [&](const Component& component) {
-			return asParametrization(component, flattenToDisk(component, values, options));
+			return flattenToDisk(component, whole.values, options);
 		};
-		mapComponents(opened, components, flatten, measureInDisk, map);
+		mapComponents(flatten, whole);
+		measureInDisk(whole);
+		advance(1.0, "Layout done");
 	}
 	if (!flat.empty()) {
 		const Task beside(share, 1.0, true);
-		leftOut = mapBeside(opened, flat, options, map);
+		leftOut = mapBeside(whole.opened, flat, options, whole.map);
 	}
-	return map;
+	return whole;
 }
 
 /// Says what the finish could not mend.
@@ -304,8 +188,9 @@ void requirePicture(const Options& options, const Report& report, int faces)
 }
 
 /// From charts to texture coordinates.
-void pack(const OpenedMesh& opened, const Options& options, Parametrization& map)
+void pack(const Options& options, WholeMap& whole)
 {
+	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
 	if (options.charts == Charts::CutForRoom && options.normalizeUV &&
@@ -316,37 +201,39 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	advance(kMapped, "Finishing the coordinates");
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
-	finish.measure = [&] { measure(opened, map); };
+	finish.measure = [&] { measure(whole); };
 	finish.packAgain = [&] { packCharts(map, options, turns); };
 	finish.mayCut = mayCutCharts(options);
 	finish.keepsBoundary = isOneChart(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
-	countFlipped(map.mesh, map.report);
-	countOverlaps(map);
-	countUnequalSeams(map);
-	requirePicture(options, map.report, map.mesh.size());
-	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
-		note(
-			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
-													  "than on the other: flipped faces beside "
-													  "them were mended.",
-			map);
-	if (isFinished(options))
-		noteFlipped(options.output, map);
+}
+
+/// Counts what is wrong with the coordinates as they are stored.
+void countFaults(Parametrization& map)
+{
+	const FlippedCount flipped = countFlipped(map.mesh);
+	map.report.flippedFaces = flipped.faces;
+	map.report.flippedByRounding = flipped.byRounding;
+	const OverlapsInFloats overlaps = overlapsInFloats(map.mesh);
+	map.report.overlappingFaces = overlaps.faces;
+	map.report.overlappingCharts = overlaps.charts;
 }
 
 /// Adds the numbers of the whole map, then gives the result the input's indices.
-void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization& map)
+Parametrization complete(const SurfaceMesh& mesh, WholeMap whole)
 {
-	map.report.seamLengthRelative =
-		map.report.seamLength /
-		std::sqrt(surfaceArea(opened.mesh.positions, opened.mesh.triangles));
-	if (map.report.stretch)
-		map.report.objective =
-			costOf(map.mesh, map.report.seamLength + map.report.chosenSeamLength).total();
-	toInputIndices(mesh, opened, map);
+	Parametrization& map = whole.map;
+	Report& report = map.report;
+	report.charts = static_cast<int>(map.charts.size());
+	report.seamLengthRelative =
+		report.seamLength /
+		std::sqrt(surfaceArea(whole.opened.mesh.positions, whole.opened.mesh.triangles));
+	if (report.stretch)
+		report.objective = costOf(map.mesh, report.seamLength + report.chosenSeamLength).total();
+	toInputIndices(mesh, whole.opened, map);
 	advance(1.0, "Done");
+	return std::move(map);
 }
 
 } // namespace
@@ -384,56 +271,64 @@ ChartTurns chartTurns(const Options& options)
 																  : ChartTurns::Free;
 }
 
-Parametrization chartsInPlane(
-	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened)
+WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
 {
+	checkOptions(options);
 	const Task part(0.0, kMapped);
-	Parametrization map;
-	VertexInput values = input;
-	const std::vector<Component> components =
-		open(mesh, options, OneSidedCut::Shortest, values, opened, map);
+	WholeMap whole = open(mesh, input, options, OneSidedCut::Shortest);
 	const auto flatten = [&](const Component& component) {
-		return mapToPlane(component, values, options);
+		return mapToPlane(component, whole.values, options);
 	};
-	mapComponents(opened, components, flatten, measure, map);
-	return map;
+	mapComponents(flatten, whole);
+	measure(whole);
+	advance(1.0, "Layout done");
+	return whole;
 }
 
 Parametrization
 parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
 {
-	OpenedMesh opened;
-	Parametrization map = chartsInPlane(mesh, input, options, opened);
-	pack(opened, options, map);
-	complete(mesh, opened, map);
-	return map;
+	WholeMap whole = chartsInPlane(mesh, input, options);
+	pack(options, whole);
+	Parametrization& map = whole.map;
+	countFaults(map);
+	map.report.unequalSeams = unequalSeams(map.mesh);
+	requirePicture(options, map.report, map.mesh.size());
+	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
+		note(
+			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
+													  "than on the other: flipped faces beside "
+													  "them were mended.",
+			map);
+	if (isFinished(options))
+		noteFlipped(options.output, map);
+	return complete(mesh, std::move(whole));
 }
 
 Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
-	OpenedMesh opened;
+	checkOptions(options);
 	Parametrization leftOut;
-	Parametrization map = chartsInDisk(mesh, input, options, opened, leftOut);
+	WholeMap whole = chartsInDisk(mesh, input, options, leftOut);
+	Parametrization& map = whole.map;
 	advance(kMapped, "Finishing the coordinates");
 	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
 	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
-		measureInDisk(opened, map);
+		measureInDisk(whole);
 	map.report.relationError =
 		std::max(*map.report.relationError, closingError(map.mesh, map.targetCurvature));
+	const int flipped = flippedInDisk(map.mesh); // geodesic triangles
 	if (!leftOut.charts.empty())
 		addBeside(std::move(leftOut), map);
 	placeDisks(map);
-	const int flipped = map.report.flippedFaces; // of geodesic triangles
-	countFlipped(map.mesh, map.report);
-	if (!isFinished(options)) // straight triangles may be flipped where geodesic ones are not
-		map.report.flippedFaces = flipped;
-	countOverlaps(map);
-	countUnequalSeamsInDisk(map);
+	countFaults(map);
+	map.report.unequalSeams = unequalSeamsInDisk(map);
 	if (isFinished(options))
 		noteFlipped(options.output, map);
-	complete(mesh, opened, map);
-	return map;
+	else // straight triangles may be flipped where geodesic ones are not
+		map.report.flippedFaces = flipped;
+	return complete(mesh, std::move(whole));
 }
 
 } // namespace ricci

@@ -338,10 +338,9 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;
-	OpenedMesh openedDisk;
 	const Parametrization flat = [&] {
 		const Task quiet(0.0, 1.0, true); // the log would speak of the punctured surface
-		return chartsInPlane(disk, {}, flow, openedDisk);
+		return chartsInPlane(disk, {}, flow).map;
 	}();
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
 	for (const int f : flat.mesh.points.indices())

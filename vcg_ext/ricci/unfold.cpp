@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "whole_map.h"
+#include "flatten.h"
 
 #include "base/memory_estimate.h"
 #include "base/numbers.h"
@@ -7,10 +7,10 @@
 #include "base/task.h"
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
-#include "flatten.h"
 #include "mesh/creases.h"
 #include "mesh/flow_domain.h"
 #include "mesh/opened_mesh.h"
+#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,25 +64,46 @@ std::vector<Component> pieces(const Component& component, const Creases& creases
 
 /// What the triangles of the map leave of a full turn round a vertex inside, and of half a turn on the
 /// boundary.
-void measureCurvature(const VertexArray<char>& isBoundary, Parametrization& map)
+/// \return [vertex]
+std::vector<double> curvatureOf(const FlatMesh& map, const VertexArray<char>& isBoundary)
 {
-	std::vector<double>& curvature = map.targetCurvature;
-	for (const Vertex v : isBoundary.indices())
-		curvature[positionOf(v)] = isBoundary[v] ? kPi : 2.0 * kPi;
-	for (const int f : map.mesh.points.indices())
+	std::vector<double> curvature;
+	for (const char isOn : isBoundary)
+		curvature.push_back(isOn ? kPi : 2.0 * kPi);
+	for (const int f : map.points.indices())
 		for (const Corner c : cornersOf(f)) {
-			const Point2 a = map.mesh.at(c.next()) - map.mesh.at(c);
-			const Point2 b = map.mesh.at(c.next().next()) - map.mesh.at(c);
-			curvature[positionOf(map.mesh.vertices[c])] -=
-				std::atan2(std::abs(cross(a, b)), dot(a, b));
+			const Point2 a = map.at(c.next()) - map.at(c);
+			const Point2 b = map.at(c.next().next()) - map.at(c);
+			curvature[positionOf(map.vertices[c])] -= std::atan2(std::abs(cross(a, b)), dot(a, b));
 		}
 	for (const Vertex v : isBoundary.indices())
-		if (double& k = curvature[positionOf(v)]; !isBoundary[v]) {
-			k = std::abs(k) > kConeCurvature ? k : 0.0;
-			map.report.cones += k != 0.0;
-		}
+		if (double& k = curvature[positionOf(v)]; !isBoundary[v] && std::abs(k) <= kConeCurvature)
+			k = 0.0;
+	return curvature;
 }
 
+/// The pieces mapped by themselves, in the component's numbers.
+Parametrization
+mapsOf(const std::vector<Component>& pieces, const Component& component, const Options& options)
+{
+	const auto vertexCount = component.positions.values().size();
+	Parametrization map;
+	map.mesh.source = verticesOf(vertexCount);
+	map.u.resize(vertexCount, 0.0);
+	map.targetCurvature.resize(vertexCount, 0.0);
+	std::vector<Parametrization> flat(pieces.size());
+	tasksInParallel(
+		static_cast<int>(pieces.size()),
+		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
+		[&](int i) {
+			flat[positionOf(i)] = flattenToPlane(pieces[positionOf(i)], VertexInput(), options);
+		});
+	for (std::size_t i = 0; i < pieces.size(); ++i)
+		append(pieces[i], std::move(flat[i]), map);
+	return map;
+}
+
+/// The pieces joined to a map of the component. Of their reports that of the flow stays.
 Parametrization
 joined(const Component& component, const std::vector<Component>& pieces, const Options& options)
 {
@@ -90,47 +111,36 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	ofPieces.finish =
 		Finish::Repair; // leaves free boundaries as long as they are, so that they join
 	ofPieces.holes = Holes::Boundaries; // they are pieces elsewhere
-	const auto vertexCount = component.positions.values().size();
-	Parametrization map;
-	map.mesh.source = verticesOf(vertexCount);
-	map.u.resize(vertexCount, 0.0);
-	map.targetCurvature.resize(vertexCount, 0.0);
-	std::vector<Parametrization> flat(pieces.size());
-	const auto flatten = [&](int i) {
-		const Component& piece = pieces[positionOf(i)];
-		flat[positionOf(i)] = asParametrization(piece, *flattenToPlane(piece, {}, ofPieces));
-	};
-	tasksInParallel(
-		static_cast<int>(pieces.size()),
-		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
-		flatten);
-	for (std::size_t i = 0; i < pieces.size(); ++i)
-		append(pieces[i], std::move(flat[i]), map);
+	Parametrization map = mapsOf(pieces, component, ofPieces);
 	connect(map.mesh); // across creases, too
 	separateCharts(ofPieces, map);
 	joinCharts(map);
+	map.notes.clear();
 	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
-	Report& report = map.report;
+	map.targetCurvature = curvatureOf(map.mesh, topology.boundary);
+	Report report;
 	report.components = 1;
-	for (FlowState& state : report.flowStates)
-		state.component = 0;
 	report.genus = topology.type.genus;
 	report.boundaryLoops = topology.type.boundaryLoops;
 	report.eulerCharacteristic = topology.type.eulerCharacteristic();
-	report.cones = 0;
-	measureCurvature(topology.boundary, map);
-	const Seams seam = seams(map.mesh);
-	report.seamEdges = static_cast<int>(seam.edges.size());
-	report.seamLength = seam.length;
-	report.overlapCuts = 0;
+	static_cast<FlowReport&>(report) = std::move(map.report);
+	for (FlowState& state : report.flowStates)
+		state.component = 0;
 	report.targetUsed = TargetUsed::Unfolded;
 	report.choice.clear();
 	report.expectedSpread.reset();
+	report.cones = 0;
+	for (const Vertex v : topology.boundary.indices())
+		report.cones += !topology.boundary[v] && map.targetCurvature[positionOf(v)] != 0.0;
 	if (topology.type.isClosed()) { // the boundaries are the creases' alone
 		report.boundaryRatioMin.reset();
 		report.boundaryRatioMax.reset();
 	}
-	map.notes.clear();
+	report.finishMoved = map.report.finishMoved;
+	const Seams seam = seams(map.mesh);
+	report.seamEdges = static_cast<int>(seam.edges.size());
+	report.seamLength = seam.length;
+	map.report = std::move(report);
 	return map;
 }
 

@@ -4,8 +4,6 @@
 #include "base/memory_estimate.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "charts/separate_charts.h"
-#include "measure/distortion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -53,89 +51,51 @@ std::vector<char> silentComponents(const std::vector<Component>& components)
 	return isSilent;
 }
 
-/// Adds what the flow and the cut say.
-void complete(const ComponentMap& map, Report& report)
+/// Gives copies of vertices the values of their vertices, where there are any.
+template<class T>
+void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 {
-	const FlowResult& flow = map.flow;
-	if (!report.flowStates.empty())
-		report.iterations += report.flowStates.back().step;
-	report.maxCurvatureError = flow.residual;
-	report.residualFloor = flow.floor;
-	report.lengthened = flow.start.lengthened.largest;
-	if (flow.target.background == Background::EuclideanPlane)
-		report.targetUsed = flow.target.used;
-	report.choice = flow.target.choice;
-	report.expectedSpread = flow.target.expectedSpread;
-	report.brokenTriangles = flow.metric->brokenTriangles();
-	report.flips = flow.flipCount();
-	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
-	report.seamEdges = map.cut.edgeCount;
+	for (std::size_t v = values.size(); !values.empty() && v < opened.vertex.size(); ++v)
+		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
 } // namespace
 
-std::vector<Component> startMap(
-	const SurfaceMesh& mesh,
-	const FlowOptions& options,
-	OneSidedCut cut,
-	OpenedMesh& opened,
-	Parametrization& map)
+WholeMap
+open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& options, OneSidedCut cut)
 {
-	opened = openMesh(mesh, map.notes, cut);
-	std::vector<Component> components = splitIntoComponents(opened);
+	requireLength("selected", input.selected.size(), mesh.positions.size());
+	requireLength("targetCurvature", input.targetCurvature.size(), mesh.positions.size());
+	advance(0.0, "Checking the mesh");
+	WholeMap whole;
+	Parametrization& map = whole.map;
+	whole.opened = openMesh(mesh, map.notes, cut);
+	const OpenedMesh& opened = whole.opened;
+	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
-		requireAreaEverywhere(components);
+		requireAreaEverywhere(whole.components);
 	requireMemory(
-		largestComponent(components),
+		largestComponent(whole.components),
 		opened.mesh.triangles.size(),
 		options.output == OutputTriangulation::CommonRefinement);
 	logLines(map.notes);
+	whole.values = input;
+	extendToCopies(opened, whole.values.selected);
+	extendToCopies(opened, whole.values.targetCurvature);
 	map.mesh.source = verticesOf(opened.mesh.positions.size());
 	map.u.assign(opened.mesh.positions.size(), 0.0);
 	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
-	map.report.cutNonmanifoldEdges = opened.cutEdges;
-	map.report.splitVertices = opened.splitVertices;
-	map.report.duplicateFaces = opened.duplicateFaces;
-	map.report.oneSidedComponents = opened.oneSidedComponents;
-	map.report.degenerateFaces = static_cast<int>(opened.degenerate.size());
-	map.report.chosenSeamEdges = opened.seamEdges;
-	map.report.chosenSeamLength = opened.seamLength;
-	map.report.seamEdges = opened.seamEdgesAdded;
-	map.report.seamLength = opened.seamLengthAdded;
-	return components;
-}
-
-Parametrization asParametrization(const Component& component, ComponentMap map)
-{
-	Parametrization part;
-	const Target& target = map.flow.target;
-	const double shift = std::log(map.scale);
-	for (const Vertex v : component.vertex.indices()) {
-		part.u.push_back(map.flow.u[v] + shift);
-		part.targetCurvature.push_back(
-			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v]);
-	}
-	for (const Vertex v : map.cones.indices())
-		if (map.cones[v] && target.used == TargetUsed::PlacedCones)
-			part.placedCones.push_back(v.number());
-	part.notes = map.notes;
-	part.report = map.report;
-	complete(map, part.report);
-	part.charts.emplace_back().group = std::move(map.group);
-	part.mesh = std::move(map.mesh);
-	return part;
-}
-
-MapCost costOf(const Parametrization& map)
-{
-	return costOf(map.mesh, map.report.seamLength);
-}
-
-void separateCharts(const Options& options, Parametrization& map)
-{
-	if (mayCutCharts(options))
-		separateCharts(
-			{options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options)}, map);
+	Report& report = map.report;
+	report.cutNonmanifoldEdges = opened.cutEdges;
+	report.splitVertices = opened.splitVertices;
+	report.duplicateFaces = opened.duplicateFaces;
+	report.oneSidedComponents = opened.oneSidedComponents;
+	report.degenerateFaces = static_cast<int>(opened.degenerate.size());
+	report.chosenSeamEdges = opened.seamEdges;
+	report.chosenSeamLength = opened.seamLength;
+	report.seamEdges = opened.seamEdgesAdded;
+	report.seamLength = opened.seamLengthAdded;
+	return whole;
 }
 
 void append(const Component& component, Parametrization part, Parametrization& whole)

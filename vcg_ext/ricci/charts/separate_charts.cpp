@@ -199,7 +199,6 @@ std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 			map.mesh.chart[i] = charts.back();
 	}
 	map.charts[positionOf(number)] = {};
-	map.report.charts = static_cast<int>(map.charts.size());
 	return charts;
 }
 
@@ -259,7 +258,6 @@ void separateCharts(const PartPlacing& placing, Parametrization& map)
 		}
 	}
 	map.charts = std::move(charts);
-	map.report.charts = static_cast<int>(map.charts.size());
 	if (divided.empty())
 		return;
 	splitPoints(map.mesh);
@@ -279,7 +277,6 @@ void joinCharts(Parametrization& map)
 			mesh.chart[f] = static_cast<int>(charts.size());
 		charts.push_back(static_cast<int>(charts.size()));
 	}
-	map.report.charts = static_cast<int>(charts.size());
 	splitPoints(mesh);
 	settle(charts, true, map);
 }

@@ -239,8 +239,8 @@ EdgeArray<char> treeAround(const Triangulation& t, const VertexArray<double>& di
 
 } // namespace
 
-CutGraph cutAroundCentre(
-	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<char>& marked)
+CutGraph
+cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones)
 {
 	const NodePaths paths = pathsAlongEdges(t, lengths, centreOf(t, lengths));
 	CutGraph cut;
@@ -248,23 +248,24 @@ CutGraph cutAroundCentre(
 	for (const Edge e : t.edges())
 		cut.isCut[e] = !t.isBoundary(e) && !cut.isCut[e];
 	const ContractedGraph graph(t, lengths);
-	prune(graph, graph.terminals(marked), cut.isCut);
+	prune(graph, graph.terminals(cones), cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
+	cut.cones = std::move(cones);
 	return cut;
 }
 
-CutGraph
-cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
+CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
 {
 	const ContractedGraph graph(t, cost);
-	const VertexArray<char> terminal = graph.terminals(marked);
+	const VertexArray<char> terminal = graph.terminals(cones);
 	CutGraph cut;
 	cut.isCut = treeAndLoops(graph, terminal);
 	prune(graph, terminal, cut.isCut);
-	shortenCut(t, cost, marked, cut.isCut);
+	shortenCut(t, cost, cones, cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
+	cut.cones = std::move(cones);
 	return cut;
 }
 
@@ -272,13 +273,12 @@ void dropSeamsToHoles(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& closes,
-	const VertexArray<char>& marked,
 	CutGraph& cut)
 {
 	const ContractedGraph graph(t, cost);
 	VertexArray<char> terminal(t.vertexCount(), 0); // [node]
 	for (const Vertex v : t.vertices())
-		if (marked[v])
+		if (cut.cones[v])
 			terminal[graph.node(v)] = 1;
 	for (const Vertex n : graph.loopNodes())
 		if (!closes[n])

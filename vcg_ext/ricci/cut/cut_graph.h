@@ -11,7 +11,8 @@ namespace ricci {
 /// Edges along which a surface is cut open into one topological disk.
 struct CutGraph
 {
-	EdgeArray<char> isCut; ///< 1 on the cut; boundary edges are never on it
+	EdgeArray<char> isCut;   ///< 1 on the cut; boundary edges are never on it
+	VertexArray<char> cones; ///< 1 inside where it must pass or end
 
 	/// 2 genus edges of the cut. The loops of the surface that cross one of them once, and the cut
 	/// nowhere else, generate the homology of the surface with every boundary loop filled.
@@ -25,38 +26,35 @@ struct CutGraph
 /// [Erickson Whittlesey 2005]): a tree of shortest paths to the nearest of several roots and of short connections
 /// between these, a spanning tree of the dual that crosses the edges with the longest loops first, and the
 /// 2 genus edges in neither. Roots are the boundary loops, each of which counts as one point, and the vertices
-/// with \p marked (cones), or any vertex where there are none. The cut reaches them; other dead ends are
+/// with \p cones, or any vertex where there are none. The cut reaches them; other dead ends are
 /// taken back. What is left is shortened by shortenCut().
 ///
 /// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
 /// sum; infinite where the cut must not run
-/// \param marked 1 where the cut must pass or end, inside
+/// \param cones see CutGraph
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
-CutGraph
-cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked);
+CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones);
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
 /// the triangles from one in the middle, of which every other is reached inside the disk, and all edges
 /// that it does not cross, without dead ends. Longer than that of cutToDisk().
 /// \param lengths of the edges
-/// \param marked 1 where the cut must pass or end, inside
+/// \param cones see CutGraph
 /// \pre \p t is connected
-CutGraph cutAroundCentre(
-	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<char>& marked);
+CutGraph
+cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones);
 
 /// Takes back the parts of \p cut that end at holes round which the metric closes: the chart goes
 /// round them in one piece. Where the cut runs on through such a hole to another place that it has
 /// to reach, it stays.
 /// \param cost what CutGraph::length adds up
 /// \param closes 1 on boundary loops whose holonomy is trivial, in rotation and in translation
-/// \param marked 1 at cones, which the cut must reach
 void dropSeamsToHoles(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& closes,
-	const VertexArray<char>& marked,
 	CutGraph& cut);
 
 /// The edges of a cut as seams: chains of halfedges, each from a vertex where the cut branches or ends,

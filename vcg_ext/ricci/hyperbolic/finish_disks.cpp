@@ -163,7 +163,6 @@ bool divideDisks(Parametrization& map)
 	for (const int p : chart.indices())
 		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);
 	countCuts(before, map);
-	map.report.charts = static_cast<int>(map.charts.size());
 	return true;
 }
 
@@ -205,7 +204,6 @@ bool separateDisks(Parametrization& map)
 		if (positionOf(chart[p]) >= disks)
 			mesh.place[p] = moved(places[positionOf(chart[p])], mesh.place[p]);
 	countCuts(before, map);
-	map.report.charts = static_cast<int>(map.charts.size());
 	return true;
 }
 

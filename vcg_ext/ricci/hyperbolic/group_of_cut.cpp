@@ -28,12 +28,9 @@ public:
 	};
 
 	CutTreeWalk(
-		const Triangulation& t,
-		const CutGraph& cut,
-		const EdgeArray<SidePairing>& pairing,
-		const VertexArray<char>& cones) :
+		const Triangulation& t, const CutGraph& cut, const EdgeArray<SidePairing>& pairing) :
 			m_t(t),
-			m_cut(cut), m_pairing(pairing), m_cones(cones), m_generatorOf(t.edgeCount(), -1),
+			m_cut(cut), m_pairing(pairing), m_generatorOf(t.edgeCount(), -1),
 			m_loop(t.vertexCount())
 	{
 		int generator = 0;
@@ -125,7 +122,7 @@ private:
 	void leave(const ExtendedIsometry& round)
 	{
 		const Visit& top = m_stack.back();
-		if (!m_loop[top.node].isValid() && !m_cones[top.node]) {
+		if (!m_loop[top.node].isValid() && !m_cut.cones[top.node]) {
 			m_record.closingError =
 				std::max(m_record.closingError, static_cast<double>(round.distanceFromIdentity()));
 			return;
@@ -137,7 +134,6 @@ private:
 	const Triangulation& m_t;
 	const CutGraph& m_cut;
 	const EdgeArray<SidePairing>& m_pairing;
-	const VertexArray<char>& m_cones;
 	EdgeArray<int> m_generatorOf;
 	VertexArray<Vertex> m_loop; // a vertex of the boundary loop, or none
 	std::vector<Visit> m_stack;
@@ -181,14 +177,11 @@ void addCanonicalBasis(
 
 } // namespace
 
-EdgeArray<SidePairing> pairingOfArcs(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones)
+EdgeArray<SidePairing>
+pairingOfArcs(const Triangulation& t, const CutGraph& cut, const EdgeArray<SidePairing>& pairing)
 {
 	EdgeArray<SidePairing> exact(t.edgeCount());
-	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
+	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cut.cones)) {
 		const Halfedge least =
 			*std::min_element(arc.begin(), arc.end(), [&](Halfedge g, Halfedge h) {
 				return pairing[g.edge()].loss < pairing[h.edge()].loss;
@@ -204,16 +197,15 @@ FuchsianGroup fuchsianGroup(
 	const Triangulation& t,
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones,
 	bool canonical)
 {
 	FuchsianGroup group;
-	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
+	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cut.cones)) {
 		const ExtendedIsometry side = across(arc.front(), pairing).isometry();
 		group.sides.push_back(rounded(side));
 		group.sides.push_back(rounded(side.inverse()));
 	}
-	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, pairing, cones).run();
+	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, pairing).run();
 
 	Array<ExtendedIsometry> generators;
 	for (const Edge e : cut.generators)

@@ -12,12 +12,8 @@ namespace ricci {
 /// Gives all edges of an arc of the cut the most exact side pairing among them: but for rounding an
 /// arc has one. Arcs end where the cut branches, at cones and at the boundary.
 /// \param pairing [edge] of the layout, for the edges of the cut
-/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
-EdgeArray<SidePairing> pairingOfArcs(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones);
+EdgeArray<SidePairing>
+pairingOfArcs(const Triangulation& t, const CutGraph& cut, const EdgeArray<SidePairing>& pairing);
 
 /// Computes the group from the side pairings of a layout. With each boundary loop drawn together to
 /// a point the cut is a graph, and all its edges but CutGraph::generators form a spanning tree. On
@@ -26,14 +22,12 @@ EdgeArray<SidePairing> pairingOfArcs(
 /// bestConditioned() takes one.
 ///
 /// \param pairing [edge] pairingOfArcs()
-/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
 /// \param canonical find handles, relation and relationError, too
 /// \throw InternalError if the word of the polygon is none
 FuchsianGroup fuchsianGroup(
 	const Triangulation& t,
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones,
 	bool canonical = false);
 
 } // namespace ricci

@@ -49,7 +49,7 @@ struct FuchsianGroup
 
 	/// Holonomy that the layout leaves round the corner of the polygon, as seen from 0: largest
 	/// entry of the difference of the relation of the polygon from +-1. From there rounding looks
-	/// larger by the exponential of the distances on the way; holonomyError() does without them.
+	/// larger by the exponential of the distances on the way; closingError() does without them.
 	double polygonError = 0.0;
 	/// The same for the loops round each single regular vertex at which the cut branches or ends.
 	double closingError = 0.0;

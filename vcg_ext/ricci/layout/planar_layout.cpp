@@ -40,26 +40,23 @@ PlanarLayout cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
 	return layout;
 }
 
-FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
+FlatMesh
+flatMeshOf(const Component& component, const FlowDomain& domain, const PlanarLayout& layout)
 {
-	const Triangulation& t = surface.triangulation;
 	FlatMesh flat;
 	flat.place = layout.points;
-	flat.vertices.resize(t.faceCount());
-	flat.across.resize(3 * t.faceCount());
-	flat.points.resize(t.faceCount());
-	flat.lengths.resize(t.faceCount());
-	for (const Face f : t.faces()) {
-		Corner c(f.number(), 0);
-		for (const Halfedge h : t.halfedges(f)) {
-			flat.vertices[c] = t.origin(h).number();
-			if (!t.isExterior(h.twin()))
-				flat.across[c] = t.corner(h.twin());
-			flat.points[c] = layout.wedge[h];
-			flat.lengths[c] = surface.lengths[h.edge()];
-			c = c.next();
-		}
+	flat.vertices = Array<Triangle>(component.triangles);
+	for (const int f : flat.vertices.indices()) {
+		const auto h = domain.halfedges(Face(f));
+		flat.points.push_back({layout.wedge[h[0]], layout.wedge[h[1]], layout.wedge[h[2]]});
+		flat.lengths.push_back(sideLengths(flat.vertices[f], component.positions.values()));
+		flat.face.push_back(f);
 	}
+	flat.chart.assign(flat.face.size(), 0);
+	flat.source = verticesOf(component.positions.values().size());
+	connect(flat);
+	if (!domain.corners.empty())
+		splitPoints(flat); // vertices that split the boundary are none of the component's
 	return flat;
 }
 

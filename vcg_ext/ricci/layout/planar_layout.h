@@ -26,9 +26,10 @@ struct PlanarLayout
 /// The wedges, numbered from 0 in order of their lowest halfedge, all of them at 0.
 PlanarLayout cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut);
 
-/// The triangles of the surface as they are laid out; their points are the wedges. Without
-/// charts, faces and sources.
-FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout);
+/// The faces of a component as one chart; its points are the wedges.
+/// \param layout of the domain's surface
+FlatMesh
+flatMeshOf(const Component& component, const FlowDomain& domain, const PlanarLayout& layout);
 
 /// Unfolds the triangles one after another across the edges with isCut 0, which must leave the
 /// surface connected and simply connected, along the tree that loses least to rounding.

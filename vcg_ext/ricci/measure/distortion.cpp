@@ -140,14 +140,16 @@ double percentile(std::vector<double> values, double share)
 	return *nth;
 }
 
-std::vector<double> measureDistortion(
+Distortion measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
-	const Array<Triangle2>& plane,
-	Report& report)
+	const Array<Triangle2>& plane)
 {
 	const std::vector<Triangle>& triangles = vertices.values();
-	std::vector<double> faceQC(triangles.size()), vertexQC(surface.size(), 0.0);
+	Distortion result;
+	std::vector<double>& vertexQC = result.vertexQC;
+	vertexQC.assign(surface.size(), 0.0);
+	std::vector<double> faceQC(triangles.size());
 	std::vector<double> ringArea(surface.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
@@ -163,10 +165,8 @@ std::vector<double> measureDistortion(
 			areaAfter[f] = 0.5 * std::abs(doubledArea(plane.values()[f]));
 		}
 	});
-	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		const double qc = faceQC[f], area = areaBefore[f];
-		report.flippedFaces += orientation(plane.values()[f]) <= 0;
 		if (!std::isfinite(qc))
 			continue;
 		measured.push_back(qc);
@@ -179,9 +179,9 @@ std::vector<double> measureDistortion(
 		}
 	}
 	AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
-	report.areaDistortionMean = areas.mean;
-	report.areaDistortionSpread = areas.spread;
-	report.areaFactors = std::move(areas.factors);
+	result.areaDistortionMean = areas.mean;
+	result.areaDistortionSpread = areas.spread;
+	result.areaFactors = std::move(areas.factors);
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < vertexQC.size(); ++v) {
@@ -194,44 +194,46 @@ std::vector<double> measureDistortion(
 			vertexQC[v] = 1.0;
 	}
 	if (measured.empty())
-		return vertexQC;
-	report.qcMean = sum / static_cast<double>(measured.size());
-	report.qcAreaMean = weightedSum / areaSum;
-	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
-	report.qcValues = std::move(measuredVertices);
-	report.qcMax = *std::max_element(measured.begin(), measured.end());
-	report.qcP99 = percentile(std::move(measured), 0.99);
-	return vertexQC;
+		return result;
+	result.qcMean = sum / static_cast<double>(measured.size());
+	result.qcAreaMean = weightedSum / areaSum;
+	result.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
+	result.qcValues = std::move(measuredVertices);
+	result.qcMax = *std::max_element(measured.begin(), measured.end());
+	result.qcP99 = percentile(std::move(measured), 0.99);
+	return result;
 }
 
-std::vector<double> measureHyperbolicDistortion(
-	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
+Distortion measureHyperbolicDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface)
 {
 	Array<Triangle2> chords;
-	int flipped = 0;
-	for (const int f : mesh.points.indices()) {
+	for (const int f : mesh.points.indices())
 		chords.push_back(chordTriangle(mesh.at(f)));
-		flipped += orientationInDisk(mesh.at(f)) <= 0;
-	}
-	std::vector<double> vertexQC = measureDistortion(mesh.vertices, surface, chords, report);
-	report.flippedFaces = flipped;
-	return vertexQC;
+	return measureDistortion(mesh.vertices, surface, chords);
 }
 
-void countFlipped(const FlatMesh& mesh, Report& report)
+int flippedInDisk(const FlatMesh& mesh)
 {
-	report.flippedFaces = report.flippedByRounding = 0;
+	int flipped = 0;
+	for (const int f : mesh.points.indices())
+		flipped += orientationInDisk(mesh.at(f)) <= 0;
+	return flipped;
+}
+
+FlippedCount countFlipped(const FlatMesh& mesh)
+{
+	FlippedCount count;
 	const auto rounded = [](const Point2& p) {
 		return Point2{roundedToFloat(p[0]), roundedToFloat(p[1])};
 	};
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 p = mesh.at(f);
 		if (orientation(p) <= 0)
-			++report.flippedFaces;
+			++count.faces;
 		else
-			report.flippedByRounding +=
-				orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) <= 0;
+			count.byRounding += orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) <= 0;
 	}
+	return count;
 }
 
 double stretchEnergy(const FlatMesh& mesh)

@@ -41,25 +41,29 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 /// 0 < \p share <= 1; NaN where there are none. None of them is NaN.
 double percentile(std::vector<double> values, double share);
 
-/// Measures the linear maps of triangles to the plane, and fills the fields of \p report that state qc
-/// and area distortion, and flippedFaces. Triangles without area in space are kept out of the means, and
-/// so are those of infinite distortion. Orientation is exact.
+/// Distortion of a map, and of its vertices.
+struct Distortion : DistortionReport
+{
+	/// [vertex] Mean of qc over the triangles at it, weighted by their areas in space (paper 5.1); 1 where none has
+	/// any.
+	std::vector<double> vertexQC;
+};
+
+/// Measures the linear maps of triangles to the plane. Triangles without area in space are kept out of the means,
+/// and so are those of infinite distortion.
 /// \param surface [vertex] its place in space
-/// \param plane [triangle][corner] counter-clockwise where it is right
-/// \return [vertex] mean of qc over the triangles at it, weighted by their areas in space (paper 5.1); 1 where
-/// none has any
-std::vector<double> measureDistortion(
+/// \param plane [triangle][corner]
+Distortion measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
-	const Array<Triangle2>& plane,
-	Report& report);
+	const Array<Triangle2>& plane);
 
 /// Of a map to the Poincaré disk. What is measured is the map to the flat triangles with the corners of the
 /// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.
-/// flippedFaces counts the geodesic triangles of the wrong orientation, or without area, as far as rounding
-/// can tell.
-std::vector<double> measureHyperbolicDistortion(
-	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
+Distortion measureHyperbolicDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface);
+
+/// Geodesic triangles in the Poincaré disk of the wrong orientation, or without area, as far as rounding can tell.
+int flippedInDisk(const FlatMesh& mesh);
 
 /// The energy of a map, see MapCost; infinite where a triangle has no area in the plane. Orientation does
 /// not count. Triangles without area in space are left out.
@@ -68,9 +72,13 @@ double stretchEnergy(const FlatMesh& mesh);
 /// \param seamLength on the surface
 MapCost costOf(const FlatMesh& mesh, double seamLength);
 
-/// Sets flippedFaces, the number of triangles that are not counter-clockwise in the plane, and
-/// flippedByRounding, how many more these are with coordinates rounded to float. Exact.
-void countFlipped(const FlatMesh& mesh, Report& report);
+/// The number of triangles that are not counter-clockwise in the plane, and how many more these are with coordinates
+/// rounded to float. Exact.
+struct FlippedCount
+{
+	int faces = 0, byRounding = 0;
+};
+FlippedCount countFlipped(const FlatMesh& mesh);
 
 } // namespace ricci
 

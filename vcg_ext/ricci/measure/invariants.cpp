@@ -54,21 +54,21 @@ annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGrap
 	return area / std::norm(period(t, layout, e));
 }
 
-double holonomyError(
-	const Triangulation& t,
-	const PlanarLayout& layout,
-	const EdgeArray<char>& isCut,
-	const VertexArray<char>& cones)
+double quarterTurnError(const FlowDomain& domain, const FlatMesh& map, const CutGraph& cut)
 {
+	const Triangulation& t = domain.surface.triangulation;
+	HalfedgeArray<Corner> corner(t.halfedgeCount());
+	for (const int f : map.points.indices())
+		for (const Corner c : cornersOf(f))
+			corner[domain.halfedges(Face(f))[c.index()]] = c;
+	const auto along = [&](Halfedge h) {
+		return asComplex(map.at(corner[h].next())) - asComplex(map.at(corner[h]));
+	};
 	double error = 0.0;
-	for (const std::vector<Halfedge>& seam : seamsOf(t, isCut, cones)) {
+	for (const std::vector<Halfedge>& seam : seamsOf(t, cut.isCut, cut.cones)) {
 		std::complex<double> sum = 0.0;
-		for (const Halfedge h : seam) {
-			const Halfedge g = h.twin();
-			const std::complex<double> left = asComplex(layout[t.next(h)]) - asComplex(layout[h]);
-			const std::complex<double> right = asComplex(layout[g]) - asComplex(layout[t.next(g)]);
-			sum += std::conj(left) * right;
-		}
+		for (const Halfedge h : seam)
+			sum -= std::conj(along(h)) * along(h.twin());
 		error = std::max(error, std::abs(std::remainder(std::arg(sum), 0.5 * kPi)));
 	}
 	return error;

@@ -34,12 +34,8 @@ double annulusModulus(
 /// Largest distance of the rotation across a seam from a multiple of pi / 2, radians. The rotation is the
 /// one that takes the edges of one side, from one end of the seam to the other, nearest to those of the
 /// other side [Kabsch 1976].
-/// \param cones 1 at vertices inside that are not flat, where seams end
-double holonomyError(
-	const Triangulation& t,
-	const PlanarLayout& layout,
-	const EdgeArray<char>& isCut,
-	const VertexArray<char>& cones);
+/// \param cut of the domain's surface
+double quarterTurnError(const FlowDomain& domain, const FlatMesh& map, const CutGraph& cut);
 
 /// Longer over shorter side of a surface laid out as a rectangle with these \p corners, in boundary
 /// order. Opposite sides are averaged.

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <set>
 
 namespace ricci {
 
@@ -30,7 +30,7 @@ Array<Point2> inFloats(Array<Point2> places, double& step)
 
 /// Edges of seams whose sides differ by more than kUnequalShare and the \p rounding of their four ends.
 template<class Length, class Rounding>
-int unequalSeams(const FlatMesh& mesh, const Length& length, const Rounding& rounding)
+int countUnequal(const FlatMesh& mesh, const Length& length, const Rounding& rounding)
 {
 	int count = 0;
 	for (const Corner side : seams(mesh).edges) {
@@ -45,36 +45,36 @@ int unequalSeams(const FlatMesh& mesh, const Length& length, const Rounding& rou
 
 } // namespace
 
-void countOverlaps(Parametrization& map)
+OverlapsInFloats overlapsInFloats(const FlatMesh& mesh)
 {
 	checkpoint();
 	double step = 0.0;
-	FlatMesh stored = map.mesh;
+	FlatMesh stored = mesh;
 	stored.place = inFloats(std::move(stored.place), step);
-	map.report.overlappingFaces = map.report.overlappingCharts = 0;
 	const OverlapSearch search(stored, kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
-	std::vector<char> isChart(map.charts.size(), 0);
+	OverlapsInFloats count;
+	std::set<int> charts;
 	for (const int f : overlaps.indices())
 		if (overlaps[f]) {
-			++map.report.overlappingFaces;
-			isChart[positionOf(stored.chart[f])] = 1;
+			++count.faces;
+			charts.insert(stored.chart[f]);
 		}
-	map.report.overlappingCharts = static_cast<int>(std::count(isChart.begin(), isChart.end(), 1));
+	count.charts = static_cast<int>(charts.size());
+	return count;
 }
 
-void countUnequalSeams(Parametrization& map)
+int unequalSeams(const FlatMesh& mesh)
 {
 	double step = 0.0;
-	const Array<Point2> stored = inFloats(map.mesh.place, step);
+	const Array<Point2> stored = inFloats(mesh.place, step);
 	const auto length = [&](Corner side) {
-		return distance(stored[map.mesh.points[side]], stored[map.mesh.points[side.next()]]);
+		return distance(stored[mesh.points[side]], stored[mesh.points[side.next()]]);
 	};
-	map.report.unequalSeams =
-		unequalSeams(map.mesh, length, [&](Corner) { return 0.25 * kTouchingSteps * step; });
+	return countUnequal(mesh, length, [&](Corner) { return 0.25 * kTouchingSteps * step; });
 }
 
-void countUnequalSeamsInDisk(Parametrization& map)
+int unequalSeamsInDisk(const Parametrization& map)
 {
 	double step = 0.0;
 	const Array<Point2> stored = inFloats(map.mesh.place, step);
@@ -93,7 +93,7 @@ void countUnequalSeamsInDisk(Parametrization& map)
 		const double moved = 0.25 * kTouchingSteps * step / (0.5 * square(end).width());
 		return 2.0 * moved / std::max(1.0 - std::norm(inDisk(end)), 0.0);
 	};
-	map.report.unequalSeams = unequalSeams(map.mesh, length, rounding);
+	return countUnequal(map.mesh, length, rounding);
 }
 
 } // namespace ricci

@@ -58,6 +58,12 @@ struct FlowDomain
 	EdgeArray<char> isForeign;
 	FaceArray<std::array<Halfedge, 3>> corners;
 
+	/// The halfedges of the surface at the corners of a face of the component.
+	std::array<Halfedge, 3> halfedges(Face f) const
+	{
+		return corners.empty() ? surface.triangulation.halfedges(f) : corners[f];
+	}
+
 	/// The surface on which the flow runs.
 	const EmbeddedSurface& solved() const { return capped ? *capped : surface; }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "holonomy_check.h"
+#include "closing_error.h"
 
 #include "../base/numbers.h"
 #include "../base/points.h"
@@ -86,12 +86,8 @@ bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 
 } // namespace
 
-double holonomyError(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const SurfaceLayout& layout,
-	const VertexArray<char>& cones,
-	const Target& target)
+double closingError(
+	const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout, const Target& target)
 {
 	const WaysRound ways(t, cut, layout);
 	double error = 0.0;
@@ -103,7 +99,7 @@ double holonomyError(
 		seen[v] = 1;
 		const ExtendedIsometry round = ways.from(h);
 		const DoubleDouble missed =
-			cones[v]
+			cut.cones[v]
 				? abs(abs(round.trace()) - 2 * abs(sineAndCosine(0.5 * target.curvature[v]).cosine))
 				: 2 * round.distanceFromIdentity();
 		error = std::max(error, static_cast<double>(missed));

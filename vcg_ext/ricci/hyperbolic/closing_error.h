@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_HOLONOMY_CHECK_H
-#define RICCI_HOLONOMY_CHECK_H
+#ifndef RICCI_CLOSING_ERROR_H
+#define RICCI_CLOSING_ERROR_H
 
 #include "../cut/cut_graph.h"
 #include "../flow/target.h"
@@ -26,14 +26,9 @@ namespace ricci {
 /// seen from the places of the vertex on its two sides. So all factors are about as large as what
 /// remains, and rounding is not multiplied by the way from 0 to the vertex and back.
 /// \param layout of \p t in the Poincaré disk, open along the cut; its pairing is that of pairingOfArcs()
-/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
 /// \param target curvature that the metric has reached
-double holonomyError(
-	const Triangulation& t,
-	const CutGraph& cut,
-	const SurfaceLayout& layout,
-	const VertexArray<char>& cones,
-	const Target& target);
+double closingError(
+	const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout, const Target& target);
 
 /// The same of a finished map, by its points alone: the largest difference of the hyperbolic lengths of the two
 /// sides of a seam; and at inner vertices on seams, that of the sum of the angles of the triangles from 2 pi less

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/numbers.h"
+#include "base/parallel.h"
+#include "base/task.h"
+#include "charts/separate_charts.h"
+#include "flatten.h"
+#include "flatten_steps.h"
+#include "measure/distortion.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Share of the curvature that may be left between creases where a component is unfolded first.
+constexpr double kMaxCurvatureBetween = 0.25;
+
+/// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
+constexpr double kPoorCost = 6.0;
+
+/// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
+/// spread of areas below these are tried: the linear model promises too much where scales differ much.
+constexpr double kSpreadsInstead[] = {0.5, 0.25};
+
+/// Whether Automatic may unfold a component: nothing but the default has been asked for that a flow of the
+/// whole component would have to give.
+bool mayUnfold(const Component& component, const Options& options)
+{
+	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
+		   isForObjective(options.cones) && options.cones.rounding == ConeRounding::Free &&
+		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
+		   options.charts != Charts::OfTheFlow && !component.hasSeam;
+}
+
+double totalOf(const std::optional<Parametrization>& map)
+{
+	return map ? costOf(*map).total() : kNoAlternative;
+}
+
+/// "energy 4.01, seams 11.9 (objective 4.6)"
+std::string costText(const Parametrization& map)
+{
+	const MapCost cost = costOf(map);
+	return "energy " + numberText(cost.energy, 3) + ", seams " + numberText(cost.seams, 3) +
+		   " (objective " + numberText(cost.total(), 3) + ")";
+}
+
+std::string unfoldedText(const Parametrization& unfolded)
+{
+	return "cut along creases and unfolded: " + costText(unfolded);
+}
+
+/// The map that Automatic takes, and why.
+Parametrization chosen(const std::string& choice, Parametrization map)
+{
+	map.report.choice = choice;
+	map.notes.push_back("Automatic: " + choice + ".");
+	logLine(map.notes.back());
+	return map;
+}
+
+/// Maps with other cones where that of the cheapest ones is poor.
+/// \param alternative what another map costs
+Parametrization withOtherCones(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	double alternative,
+	Parametrization map)
+{
+	if (map.report.targetUsed != TargetUsed::PlacedCones || !isForObjective(options.cones))
+		return map;
+	for (const double spread : kSpreadsInstead) {
+		if (std::min(costOf(map).total(), alternative) <= kPoorCost)
+			break;
+		Options other = options;
+		other.cones.distortion = spread;
+		auto next = attempt("the map before it stays", [&] {
+			Parametrization part = flattenToPlane(component, input, other);
+			separateCharts(options, part);
+			return part;
+		});
+		if (next && costOf(*next).total() < costOf(map).total()) {
+			next->report.iterations += map.report.iterations;
+			map = std::move(*next);
+		}
+	}
+	return map;
+}
+
+} // namespace
+
+MapCost costOf(const Parametrization& map)
+{
+	return costOf(map.mesh, map.report.seamLength);
+}
+
+void separateCharts(const Options& options, Parametrization& map)
+{
+	if (mayCutCharts(options))
+		separateCharts(
+			{options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options)}, map);
+}
+
+Parametrization
+mapToPlane(const Component& component, const VertexInput& input, const Options& options)
+{
+	const bool mayBeUnfolded = mayUnfold(component, options);
+	FlowPlan plan;
+	std::optional<Parametrization> unfolded;
+	std::vector<std::string> lines; // of its log
+	besides(
+		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
+		[&] { plan = startOfPlan(component, input, options); },
+		[&] {
+			Task still(0.0, 0.0);
+			still.keepLines(lines);
+			if (mayBeUnfolded)
+				unfolded = unfold(component, options, kMaxCurvatureBetween);
+		});
+	logLines(lines);
+	const auto unfoldIfPoor = [&](double cost) {
+		if (!unfolded && cost > kPoorCost && mayBeUnfolded)
+			unfolded = unfold(component, options, 1.0);
+	};
+
+	completePlan(options, totalOf(unfolded), plan);
+	if (plan.target.expected) {
+		const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
+		const double cost = plan.target.expected->total();
+		unfoldIfPoor(cost);
+		if (cost > totalOf(unfolded)) {
+			const std::string choice =
+				unfoldedText(*unfolded) + "; cones are expected to cost more";
+			return chosen(choice, *std::move(unfolded));
+		}
+	}
+	Parametrization map = flattenToPlane(component, std::move(plan), options);
+	advance(1.0, "Looking for overlaps");
+	separateCharts(options, map);
+	unfoldIfPoor(costOf(map).total());
+	map = withOtherCones(component, input, options, totalOf(unfolded), std::move(map));
+	if (!unfolded)
+		return map;
+	const std::string whole = "as a whole: " + costText(map);
+	const int steps = unfolded->report.iterations + map.report.iterations;
+	const bool isUnfolded = totalOf(unfolded) < costOf(map).total();
+	const std::string choice =
+		isUnfolded ? unfoldedText(*unfolded) + "; " + whole
+				   : map.report.choice + "; " + whole + "; " + unfoldedText(*unfolded);
+	map = chosen(choice, isUnfolded ? *std::move(unfolded) : std::move(map));
+	map.report.iterations = steps;
+	return map;
+}
+
+} // namespace ricci
