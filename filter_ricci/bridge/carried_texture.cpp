@@ -5,7 +5,6 @@
 #include "free_memory.h"
 #include "output_path.h"
 
-#include <ricci/base/floating_point.h>
 #include <ricci/base/indexed.h>
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>

@@ -4,7 +4,7 @@
 #include <ricci/base/convex_hull.h>
 #include <ricci/base/indexed.h>
 #include <ricci/base/numbers.h>
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/base/shortest_paths.h>
+#include <ricci/base/graphs.h>
 
 #include <gtest/gtest.h>
 

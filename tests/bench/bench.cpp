@@ -13,12 +13,12 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
 #include <ricci/cones/target_curvature.h>
-#include <ricci/flow/hessian.h>
+#include <ricci/flow/curvature_map.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/mesh/component.h>
 #include <ricci/mesh/flow_domain.h>
 #include <ricci/metric/circle_packing.h>
-#include <ricci/metric/euclidean.h>
+#include <ricci/metric/geometry.h>
 #include <ricci/numerics/sparse_cholesky.h>
 #include <ricci/parametrize.h>
 

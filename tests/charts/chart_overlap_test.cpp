@@ -4,7 +4,7 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/charts/chart_overlap.h>
 
 #include <gtest/gtest.h>

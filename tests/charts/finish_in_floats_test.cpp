@@ -2,8 +2,8 @@
 #include "support/flat_meshes.h"
 #include "support/random.h"
 
-#include <ricci/base/floating_point.h>
-#include <ricci/base/orientation.h>
+#include <ricci/base/numbers.h>
+#include <ricci/base/points.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
 

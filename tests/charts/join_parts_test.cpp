@@ -5,10 +5,10 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/charts/connected_pieces.h>
+#include <ricci/charts/dual_graph.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
 

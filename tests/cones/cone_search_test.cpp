@@ -2,7 +2,7 @@
 // Where cones may lie, the tree of their seams, and the steps of the search for them.
 #include "linearised.h"
 
-#include <ricci/base/shortest_paths.h>
+#include <ricci/base/graphs.h>
 #include <ricci/cones/cone_search.h>
 #include <ricci/metric/area.h>
 

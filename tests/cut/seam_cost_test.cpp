@@ -5,7 +5,6 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/cut/cut_graph.h>
-#include <ricci/cut/seam_cost.h>
 
 #include <gtest/gtest.h>
 

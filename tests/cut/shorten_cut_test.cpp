@@ -5,7 +5,7 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/base/disjoint_sets.h>
+#include <ricci/base/graphs.h>
 #include <ricci/cut/cut_graph.h>
 #include <ricci/cut/shorten_cut.h>
 #include <ricci/error.h>

@@ -2,7 +2,7 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/flow/circle_target.h>
+#include <ricci/flow/flow_run.h>
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "support/wide.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/flow/hessian.h>
-#include <ricci/metric/hyperbolic.h>
+#include <ricci/flow/curvature_map.h>
+#include <ricci/metric/geometry.h>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 
 #include <bridge/error_sentences.h>
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/error.h>
 #include <ricci/mesh/opened_mesh.h>
 

@@ -10,8 +10,8 @@
 #include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/hyperbolic/tiling.h>
 #include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/measure/period_matrix.h>
-#include <ricci/metric/hyperbolic.h>
+#include <ricci/measure/invariants.h>
+#include <ricci/metric/geometry.h>
 
 #include <gtest/gtest.h>
 

@@ -3,12 +3,11 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
-#include <ricci/base/disjoint_sets.h>
+#include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
 #include <ricci/hyperbolic/canonical_generators.h>
-#include <ricci/hyperbolic/handle_moves.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
 #include <ricci/hyperbolic/finish_disks.h>
-#include <ricci/measure/chart_check.h>
+#include <ricci/measure/map_check.h>
 
 #include <gtest/gtest.h>
 

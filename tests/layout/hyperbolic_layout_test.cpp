@@ -10,7 +10,7 @@
 #include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/conformal_flip.h>
-#include <ricci/metric/hyperbolic.h>
+#include <ricci/metric/geometry.h>
 #include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>

@@ -5,9 +5,7 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/measure/chart_check.h>
-#include <ricci/measure/overlap_check.h>
-#include <ricci/measure/sphere_check.h>
+#include <ricci/measure/map_check.h>
 #include <ricci/numerics/disk_isometry.h>
 
 #include <gtest/gtest.h>

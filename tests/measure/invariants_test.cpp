@@ -4,7 +4,6 @@
 #include "support/random.h"
 
 #include <ricci/measure/invariants.h>
-#include <ricci/measure/period_matrix.h>
 
 #include <gtest/gtest.h>
 

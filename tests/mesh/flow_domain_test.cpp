@@ -4,11 +4,10 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/base/disjoint_sets.h>
+#include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
-#include <ricci/base/shortest_paths.h>
-#include <ricci/mesh/creases.h>
 #include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/sides.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,7 @@
 #include "support/random.h"
 #include "support/wide.h"
 
-#include <ricci/metric/euclidean.h>
-#include <ricci/metric/hyperbolic.h>
+#include <ricci/metric/geometry.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/numerics/anderson_mixing.h>
+#include <ricci/numerics/iteration.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

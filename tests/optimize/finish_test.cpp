@@ -2,7 +2,7 @@
 #include "flat_maps.h"
 #include "support/random.h"
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/optimize/finish.h>
 

@@ -5,7 +5,7 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/layout/flat_mesh.h>
 
 #include <cstdint>

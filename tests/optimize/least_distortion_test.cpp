@@ -7,9 +7,8 @@
 #include "support/shapes.h"
 
 #include <ricci/measure/distortion.h>
-#include <ricci/optimize/distortion_laplacian.h>
+#include <ricci/numerics/iteration.h>
 #include <ricci/optimize/least_distortion.h>
-#include <ricci/optimize/limited_memory_bfgs.h>
 #include <ricci/optimize/mean_distortion.h>
 
 #include <gtest/gtest.h>
@@ -40,8 +39,8 @@ struct CutMap
 		Component component;
 		component.positions = VertexArray<Point3>(m.positions);
 		component.triangles = m.triangles;
-		flat = flatMeshOf(
-			component, flow.domain, flow.refinement(flow.cutAnywhere(random)).corners);
+		flat =
+			flatMeshOf(component, flow.domain, flow.refinement(flow.cutAnywhere(random)).corners);
 		cones = flow.cones();
 	}
 

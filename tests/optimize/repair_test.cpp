@@ -4,7 +4,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>

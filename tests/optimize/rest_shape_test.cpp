@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ricci/optimize/rest_shape.h>
+#include <ricci/optimize/patches.h>
 
 #include <gtest/gtest.h>
 

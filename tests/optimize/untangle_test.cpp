@@ -4,7 +4,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/optimize/patch_energy.h>
-#include <ricci/optimize/untangle.h>
+#include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "shapes.h"
 
 #include <ricci/base/box_tree.h>
-#include <ricci/base/disjoint_sets.h>
+#include <ricci/base/graphs.h>
 #include <ricci/mesh/sides.h>
 
 #include <algorithm>

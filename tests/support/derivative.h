@@ -3,7 +3,6 @@
 #define RICCI_TESTS_DERIVATIVE_H
 
 #include <ricci/flow/curvature_map.h>
-#include <ricci/flow/hessian.h>
 
 #include <Eigen/Dense>
 

@@ -6,7 +6,7 @@
 
 #include <ricci/flow/curvature_map.h>
 #include <ricci/metric/circle_packing.h>
-#include <ricci/metric/euclidean.h>
+#include <ricci/metric/geometry.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #ifndef RICCI_TESTS_PLANAR_EDGES_H
 #define RICCI_TESTS_PLANAR_EDGES_H
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/mesh/surface_mesh.h>
 #include <ricci/mesh/triangulation.h>
 

@@ -4,7 +4,7 @@
 #include "complex.h"
 #include "shapes.h"
 
-#include <ricci/base/orientation.h>
+#include <ricci/base/points.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/mesh/triangulation.h>
 

@@ -6,7 +6,7 @@
 
 #include "shapes.h"
 
-#include <ricci/base/disjoint_sets.h>
+#include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
 #include <ricci/mesh/surface_mesh.h>
 

@@ -3,7 +3,7 @@
 
 #include "support/listener.h"
 
-#include <ricci/texture/nearest_fill.h>
+#include <ricci/texture/picture.h>
 #include <ricci/texture/old_charts.h>
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 
 #include "base/numbers.h"
 #include "base/tolerances.h"
-#include "cut/seam_cost.h"
-#include "measure/period_matrix.h"
+#include "cut/cut_graph.h"
+#include "measure/invariants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #define RICCI_FLATTEN_STEPS_H
 
 #include "base/task.h"
-#include "cones/admissible.h"
+#include "cones/prescribed_target.h"
 #include "cut/cut_graph.h"
 #include "flatten.h"
 #include "mesh/flow_domain.h"

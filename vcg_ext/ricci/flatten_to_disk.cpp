@@ -10,7 +10,7 @@
 #include "hyperbolic/group_of_cut.h"
 #include "hyperbolic/hyperbolic_target.h"
 #include "layout/hyperbolic_layout.h"
-#include "measure/chart_check.h"
+#include "measure/map_check.h"
 #include "measure/metric_check.h"
 #include "mesh/flow_domain.h"
 

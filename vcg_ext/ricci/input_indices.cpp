@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "input_indices.h"
 
-#include "base/adjacency.h"
+#include "base/graphs.h"
 #include "measure/distortion.h"
 
 #include <array>

@@ -10,9 +10,8 @@
 #include "hyperbolic/closing_error.h"
 #include "hyperbolic/finish_disks.h"
 #include "input_indices.h"
-#include "left_out.h"
 #include "measure/distortion.h"
-#include "measure/overlap_check.h"
+#include "measure/map_check.h"
 #include "whole_map.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "base/tolerances.h"
 #include "error.h"
 #include "measure/distortion.h"
-#include "measure/sphere_check.h"
+#include "measure/map_check.h"
 #include "mesh/component.h"
 #include "mesh/triangulation.h"
 #include "numerics/moebius_balancing.h"

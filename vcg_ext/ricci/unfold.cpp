@@ -7,9 +7,9 @@
 #include "base/task.h"
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
-#include "mesh/creases.h"
 #include "mesh/flow_domain.h"
 #include "mesh/opened_mesh.h"
+#include "mesh/sides.h"
 #include "whole_map.h"
 
 #include <algorithm>

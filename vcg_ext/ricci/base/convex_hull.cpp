@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convex_hull.h"
 
-#include "orientation.h"
+#include "points.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_division.h"
 
-#include "../base/adjacency.h"
+#include "../base/graphs.h"
 #include "../base/task.h"
 #include "../numerics/min_cut.h"
-#include "connected_pieces.h"
+#include "dual_graph.h"
 
 #include <algorithm>
 #include <cstddef>

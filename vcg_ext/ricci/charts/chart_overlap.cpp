@@ -2,7 +2,7 @@
 #include "chart_overlap.h"
 
 #include "../base/convex_hull.h"
-#include "../base/orientation.h"
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 

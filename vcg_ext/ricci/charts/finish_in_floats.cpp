@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finish_in_floats.h"
 
-#include "../base/floating_point.h"
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"

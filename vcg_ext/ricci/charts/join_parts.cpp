@@ -2,7 +2,7 @@
 #include "join_parts.h"
 
 #include "../base/task.h"
-#include "connected_pieces.h"
+#include "dual_graph.h"
 
 #include <algorithm>
 #include <cstddef>

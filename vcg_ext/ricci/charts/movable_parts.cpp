@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "movable_parts.h"
 
-#include "../base/orientation.h"
+#include "../base/points.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 

@@ -2,8 +2,8 @@
 #include "separate_charts.h"
 
 #include "../base/convex_hull.h"
-#include "../base/disjoint_sets.h"
-#include "../base/orientation.h"
+#include "../base/graphs.h"
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../metric/area.h"
 #include "chart_division.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_search.h"
 
+#include "../base/graphs.h"
 #include "../base/numbers.h"
-#include "../base/shortest_paths.h"
 #include "../base/task.h"
 #include "../flow/target.h"
 

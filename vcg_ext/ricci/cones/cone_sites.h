@@ -2,8 +2,7 @@
 #ifndef RICCI_CONE_SITES_H
 #define RICCI_CONE_SITES_H
 
-#include "../base/adjacency.h"
-#include "../base/shortest_paths.h"
+#include "../base/graphs.h"
 #include "../mesh/flow_domain.h"
 
 #include <vector>

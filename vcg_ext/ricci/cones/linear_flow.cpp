@@ -5,7 +5,7 @@
 #include "../error.h"
 #include "../flow/curvature_map.h"
 #include "../metric/circle_packing.h"
-#include "../metric/euclidean.h"
+#include "../metric/geometry.h"
 #include "../numerics/aggregation.h"
 
 #include <Eigen/IterativeLinearSolvers>

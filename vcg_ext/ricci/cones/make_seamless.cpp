@@ -5,7 +5,6 @@
 #include "../base/points.h"
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "../metric/laplacian.h"
 #include "area_change.h"
 #include "cone_placement.h"
 #include "cone_sites.h"

@@ -7,7 +7,7 @@
 #include "../error.h"
 #include "../numerics/double_double.h"
 #include "area_change.h"
-#include "rectangle_corners.h"
+#include "prescribed_target.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #define RICCI_TARGET_CURVATURE_H
 
 #include "../flow/ricci_flow.h"
-#include "admissible.h"
 #include "cone_placement.h"
+#include "prescribed_target.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shorten_cut.h"
 
-#include "../base/shortest_paths.h"
+#include "../base/graphs.h"
 #include "../base/task.h"
 
 #include <algorithm>

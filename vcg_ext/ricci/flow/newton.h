@@ -3,7 +3,6 @@
 #define RICCI_NEWTON_H
 
 #include "curvature_map.h"
-#include "hessian.h"
 
 #include <functional>
 #include <memory>

@@ -4,8 +4,7 @@
 #include "../base/memory_estimate.h"
 #include "../base/task.h"
 #include "../error.h"
-#include "../metric/euclidean.h"
-#include "../metric/hyperbolic.h"
+#include "../metric/geometry.h"
 #include "flow_run.h"
 
 #include <algorithm>

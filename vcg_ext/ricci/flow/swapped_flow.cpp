@@ -4,7 +4,7 @@
 #include "../base/points.h"
 #include "../base/task.h"
 #include "../error.h"
-#include "../metric/euclidean.h"
+#include "../metric/geometry.h"
 #include "flow_run.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finish_disks.h"
 
-#include "../base/floating_point.h"
-#include "../base/shortest_paths.h"
+#include "../base/graphs.h"
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../charts/chart_division.h"

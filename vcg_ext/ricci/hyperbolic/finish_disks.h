@@ -3,7 +3,7 @@
 #define RICCI_FINISH_DISKS_H
 
 #include "../layout/parametrization.h"
-#include "../optimize/validity.h"
+#include "../optimize/patches.h"
 
 #include <cstddef>
 

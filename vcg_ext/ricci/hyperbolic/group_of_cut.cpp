@@ -2,7 +2,6 @@
 #include "group_of_cut.h"
 
 #include "canonical_generators.h"
-#include "handle_moves.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #define RICCI_GROUP_OF_CUT_H
 
 #include "../cut/cut_graph.h"
-#include "../layout/fuchsian_group.h"
 #include "../layout/hyperbolic_layout.h"
+#include "../layout/parametrization.h"
 #include "../mesh/triangulation.h"
 
 namespace ricci {

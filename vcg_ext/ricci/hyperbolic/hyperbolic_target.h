@@ -2,7 +2,7 @@
 #ifndef RICCI_HYPERBOLIC_TARGET_H
 #define RICCI_HYPERBOLIC_TARGET_H
 
-#include "../cones/admissible.h"
+#include "../cones/prescribed_target.h"
 #include "../options.h"
 
 namespace ricci {

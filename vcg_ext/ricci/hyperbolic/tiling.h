@@ -3,7 +3,7 @@
 #ifndef RICCI_TILING_H
 #define RICCI_TILING_H
 
-#include "../layout/fuchsian_group.h"
+#include "../layout/parametrization.h"
 #include "../numerics/disk_isometry.h"
 
 #include <complex>

@@ -2,7 +2,7 @@
 #ifndef RICCI_FLAT_MESH_H
 #define RICCI_FLAT_MESH_H
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../base/indexed.h"
 #include "../base/points.h"
 #include "../mesh/surface_mesh.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distortion.h"
 
-#include "../base/floating_point.h"
 #include "../base/indexed.h"
-#include "../base/orientation.h"
+#include "../base/numbers.h"
 #include "../base/parallel.h"
+#include "../base/points.h"
 #include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../metric/area.h"

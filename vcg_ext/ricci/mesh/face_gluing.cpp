@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face_gluing.h"
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../base/numbers.h"
-#include "../base/shortest_paths.h"
 #include "sides.h"
 
 #include <algorithm>

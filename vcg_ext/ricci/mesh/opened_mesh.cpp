@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "opened_mesh.h"
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "face_gluing.h"

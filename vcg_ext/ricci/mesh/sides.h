@@ -2,9 +2,10 @@
 #ifndef RICCI_SIDES_H
 #define RICCI_SIDES_H
 
-#include "../base/adjacency.h"
+#include "../base/graphs.h"
 #include "surface_mesh.h"
 
+#include <array>
 #include <vector>
 
 namespace ricci {
@@ -34,6 +35,27 @@ private:
 	Array<int> m_first;           // [edge] into m_sides; their number
 	CornerArray<Corner> m_across; // [side]
 };
+
+/// The edges at which a surface bends.
+struct Creases
+{
+	/// [face][k] 1 where the side from corner k is one, on one of the two sides of an edge, as in
+	/// SurfaceMesh::seam.
+	std::vector<std::array<char, 3>> sides;
+	int edges = 0;
+	/// What is left, away from creases and boundary, of the sum of |K| over all vertices inside: 0 to 1. 0
+	/// for a surface that unfolds between its creases.
+	double curvatureBetween = 1.0;
+};
+
+/// \param positions, triangles, sides of an oriented manifold
+/// \param angle radians between the normals of the two triangles at an edge, above which it is a crease.
+/// Edges of a triangle so thin that it has no normal are none.
+Creases creases(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const Sides& sides,
+	double angle);
 
 } // namespace ricci
 

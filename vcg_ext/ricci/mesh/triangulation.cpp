@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation.h"
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../error.h"
 #include "sides.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "circle_packing.h"
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "area.h"
 #include "conformal_flip.h"
-#include "euclidean.h"
+#include "geometry.h"
 
 #include <algorithm>
 #include <cmath>

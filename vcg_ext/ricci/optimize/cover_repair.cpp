@@ -4,7 +4,7 @@
 #include "../base/task.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../numerics/disk_isometry.h"
-#include "untangle.h"
+#include "repair.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
-#include "../base/orientation.h"
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../numerics/line_search.h"
+#include "../numerics/iteration.h"
 #include "patch_energy.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mean_distortion.h"
 
-#include "../base/orientation.h"
 #include "../base/parallel.h"
+#include "../base/points.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 

@@ -2,7 +2,7 @@
 #ifndef RICCI_MEAN_DISTORTION_H
 #define RICCI_MEAN_DISTORTION_H
 
-#include "../base/adjacency.h"
+#include "../base/graphs.h"
 #include "point_groups.h"
 
 #include <Eigen/Core>

@@ -6,7 +6,6 @@
 #include "../numerics/sparse_cholesky.h"
 #include "patches.h"
 #include "point_groups.h"
-#include "rest_shape.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "point_groups.h"
 
-#include "../base/adjacency.h"
+#include "../base/graphs.h"
 #include "../base/tolerances.h"
 
 #include <algorithm>

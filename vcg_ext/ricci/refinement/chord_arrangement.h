@@ -2,7 +2,7 @@
 #ifndef RICCI_CHORD_ARRANGEMENT_H
 #define RICCI_CHORD_ARRANGEMENT_H
 
-#include "../base/adjacency.h"
+#include "../base/graphs.h"
 
 #include <array>
 #include <vector>

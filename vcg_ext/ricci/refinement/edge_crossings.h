@@ -3,7 +3,6 @@
 #define RICCI_EDGE_CROSSINGS_H
 
 #include "../mesh/normal_coordinates.h"
-#include "barycentric.h"
 #include "overlay_pieces.h"
 
 #include <vector>

@@ -2,8 +2,7 @@
 #include "overlay_nodes.h"
 
 #include "../base/tolerances.h"
-#include "../metric/euclidean.h"
-#include "../metric/hyperbolic.h"
+#include "../metric/geometry.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,8 +4,8 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "nearest_fill.h"
 #include "old_charts.h"
+#include "picture.h"
 #include "picture_sampler.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "old_charts.h"
 
-#include "../base/disjoint_sets.h"
+#include "../base/graphs.h"
 #include "../base/task.h"
 #include "../mesh/sides.h"
 

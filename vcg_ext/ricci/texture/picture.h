@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -189,6 +190,18 @@ inline Point2 pointOf(const Triangle2& t, const Point3& weights)
 		weights[0] * t[0][0] + weights[1] * t[1][0] + weights[2] * t[2][0],
 		weights[0] * t[0][1] + weights[1] * t[1][1] + weights[2] * t[2][1]};
 }
+
+/// Gives every texel that is not \p covered [texel] the samples of the nearest one that is; nothing
+/// where none is. Euclidean distance between middles, found exactly in time proportional to the texels
+/// [Felzenszwalb Huttenlocher 2012]. Needs 2 bytes for each texel.
+template<class Sample>
+void fillFromNearest(
+	const std::vector<char>& covered, const PictureView<Sample>& picture, int threads);
+
+extern template void
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);
+extern template void
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int);
 
 } // namespace ricci
 

@@ -6,7 +6,7 @@
 #ifndef __VCGLIB_RICCI_FLOW
 #define __VCGLIB_RICCI_FLOW
 
-#include <ricci/base/floating_point.h>
+#include <ricci/base/numbers.h>
 #include <ricci/base/task.h>
 #include <ricci/error.h>
 #include <ricci/options.h>

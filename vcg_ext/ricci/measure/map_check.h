@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of what is given back, by other formulas than those that found it.
-#ifndef RICCI_CHART_CHECK_H
-#define RICCI_CHART_CHECK_H
+#ifndef RICCI_MAP_CHECK_H
+#define RICCI_MAP_CHECK_H
 
+#include "../base/points.h"
 #include "../flow/ricci_flow.h"
 #include "../layout/flat_mesh.h"
+#include "../layout/parametrization.h"
+#include "../mesh/surface_mesh.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace ricci {
 
@@ -49,6 +53,45 @@ void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool s
 /// The same for a chart in the Poincaré disk, whose points must lie inside it.
 /// \throw NotConverged
 void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent);
+
+/// Triangles that cover a part of the plane together with another one, of their own chart or not, once their
+/// coordinates are rounded to float, and the charts that these are in. What is covered no deeper than kTouchingSteps
+/// steps of a float is what the rounding may have moved.
+struct OverlapsInFloats
+{
+	int faces = 0, charts = 0;
+};
+OverlapsInFloats overlapsInFloats(const FlatMesh& mesh);
+
+/// The number of edges of seams whose two sides differ in length by more than
+/// kUnequalShare of the longer one, once their coordinates are rounded to float, and by more than
+/// kTouchingSteps steps of a float, which the rounding may have changed them by. A texture that should go on
+/// across such a seam is torn there.
+int unequalSeams(const FlatMesh& mesh);
+
+/// The same in the hyperbolic metric, for charts in the disks that placeDisks() has placed: towards the border of
+/// its disk a step of a float is a longer way.
+int unequalSeamsInDisk(const Parametrization& map);
+
+constexpr double kTouchingSteps = 4.0, kUnequalShare = 1e-3;
+
+/// Errors of a map to the unit sphere, found from its triangles alone.
+struct SphereCheck
+{
+	double radiusError = 0.0; ///< largest | |p| - 1 |; infinite where a point is not finite
+
+	/// How many times the triangles cover the sphere: the sum of their solid angles, with sign,
+	/// over 4 pi, with tan(angle / 2) = det(a, b, c) / (1 + ab + bc + ca)
+	/// [van Oosterom Strackee 1983]. A whole number for a closed surface, 1 where its map is one to
+	/// one.
+	double degree = 0.0;
+
+	int turned = 0; ///< triangles of negative solid angle
+};
+
+/// \param triangles corners by vertex; counter-clockwise seen from outside
+/// \param sphere [vertex] its image
+SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vector<Point3>& sphere);
 
 } // namespace ricci
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "nearest_fill.h"
+#include "picture.h"
 
 #include "../base/parallel.h"
 #include "../base/task.h"

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_ADMISSIBLE_H
-#define RICCI_ADMISSIBLE_H
+#ifndef RICCI_PRESCRIBED_TARGET_H
+#define RICCI_PRESCRIBED_TARGET_H
 
+#include "../base/points.h"
 #include "../base/tolerances.h"
 #include "../flow/target.h"
+#include "../mesh/elements.h"
 #include "../mesh/triangulation.h"
 
+#include <array>
 #include <vector>
 
 namespace ricci {
@@ -44,6 +47,14 @@ void checkVertexBounds(const Topology& topology, const Target& target);
 /// sum K > 2 pi chi - pi n over the vertices inside. Nothing is asked where no u is fixed.
 /// \throw InadmissibleCurvature (FreeBoundary) with both numbers
 void checkFreeBoundary(const Topology& topology, const Target& target);
+
+/// Four vertices of the boundary \p loop for the corners of a rectangle, in the order of the loop:
+/// those nearest to the corners of the rectangle of minimum area around the loop, in the plane that
+/// fits the loop best, so that a patch with a four-cornered outline gets its own corners. Where these
+/// are not four different vertices in order, the loop is divided into quarters of equal length.
+/// \pre \p loop has at least four vertices
+std::array<Vertex, 4>
+rectangleCorners(const std::vector<Vertex>& loop, const VertexArray<Point3>& positions);
 
 } // namespace ricci
 

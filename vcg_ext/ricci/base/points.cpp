@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orientation.h"
+#include "points.h"
 
 #include <array>
 #include <cmath>

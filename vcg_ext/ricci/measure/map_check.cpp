@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "chart_check.h"
+#include "map_check.h"
 
+#include "../base/indexed.h"
 #include "../base/numbers.h"
-#include "../base/orientation.h"
+#include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../charts/chart_overlap.h"
 #include "../error.h"
+#include "../numerics/disk_isometry.h"
 #include "../numerics/double_double.h"
 #include "metric_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
 #include <string>
 
 namespace ricci {
@@ -170,6 +177,140 @@ void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent)
 		throw NotConverged(
 			"seams " + numberText(check.seamGap, 3) + " apart in the disk, " +
 			std::to_string(check.flipped) + " faces flipped");
+}
+
+namespace {
+
+/// Coordinates rounded to float. \param step receives that of the largest one
+Array<Point2> inFloats(Array<Point2> places, double& step)
+{
+	double largest = 0.0;
+	for (Point2& p : places)
+		for (double& x : p) {
+			x = roundedToFloat(x);
+			largest = std::max(largest, std::abs(x));
+		}
+	step = floatStep(largest);
+	return places;
+}
+
+/// Edges of seams whose sides differ by more than kUnequalShare and the \p rounding of their four ends.
+template<class Length, class Rounding>
+int countUnequal(const FlatMesh& mesh, const Length& length, const Rounding& rounding)
+{
+	int count = 0;
+	for (const Corner side : seams(mesh).edges) {
+		const Corner other = mesh.across[side];
+		const double own = length(side), across = length(other);
+		const double allowed =
+			rounding(side) + rounding(side.next()) + rounding(other) + rounding(other.next());
+		count += std::abs(own - across) > std::max(kUnequalShare * std::max(own, across), allowed);
+	}
+	return count;
+}
+
+} // namespace
+
+OverlapsInFloats overlapsInFloats(const FlatMesh& mesh)
+{
+	checkpoint();
+	double step = 0.0;
+	FlatMesh stored = mesh;
+	stored.place = inFloats(std::move(stored.place), step);
+	const OverlapSearch search(stored, kTouchingSteps * step);
+	const Array<char> overlaps = search.overlapping();
+	OverlapsInFloats count;
+	std::set<int> charts;
+	for (const int f : overlaps.indices())
+		if (overlaps[f]) {
+			++count.faces;
+			charts.insert(stored.chart[f]);
+		}
+	count.charts = static_cast<int>(charts.size());
+	return count;
+}
+
+int unequalSeams(const FlatMesh& mesh)
+{
+	double step = 0.0;
+	const Array<Point2> stored = inFloats(mesh.place, step);
+	const auto length = [&](Corner side) {
+		return distance(stored[mesh.points[side]], stored[mesh.points[side.next()]]);
+	};
+	return countUnequal(mesh, length, [&](Corner) { return 0.25 * kTouchingSteps * step; });
+}
+
+int unequalSeamsInDisk(const Parametrization& map)
+{
+	double step = 0.0;
+	const Array<Point2> stored = inFloats(map.mesh.place, step);
+	const auto square = [&](Corner c) -> const Box2& {
+		return map.charts[positionOf(map.mesh.chart[c.face()])].box;
+	};
+	const auto inDisk = [&](Corner c) {
+		const Point2 fromCentre = stored[map.mesh.points[c]] - square(c).centre();
+		return asComplex(fromCentre) / (0.5 * square(c).width());
+	};
+	const auto length = [&](Corner side) {
+		return 2.0 * std::asinh(0.5 * chordLength(inDisk(side), inDisk(side.next())));
+	};
+	// The metric is 2 |dz| / (1 - |z|^2).
+	const auto rounding = [&](Corner end) {
+		const double moved = 0.25 * kTouchingSteps * step / (0.5 * square(end).width());
+		return 2.0 * moved / std::max(1.0 - std::norm(inDisk(end)), 0.0);
+	};
+	return countUnequal(map.mesh, length, rounding);
+}
+
+namespace {
+
+// What cancels is computed exactly, the rest in double.
+
+DoubleDouble exactDot(const Point3& a, const Point3& b)
+{
+	DoubleDouble sum;
+	for (std::size_t k = 0; k < 3; ++k)
+		sum += DoubleDouble::product(a[k], b[k]);
+	return sum;
+}
+
+double determinant(const Point3& a, const Point3& b, const Point3& c)
+{
+	DoubleDouble sum;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+		sum += (DoubleDouble::product(b[i], c[j]) - DoubleDouble::product(b[j], c[i])) * a[k];
+	}
+	return static_cast<double>(sum);
+}
+
+} // namespace
+
+SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vector<Point3>& sphere)
+{
+	SphereCheck check;
+	DoubleDouble sum;
+	for (const Triangle& t : triangles) {
+		std::array<Point3, 3> p;
+		std::array<double, 3> norm;
+		for (std::size_t k = 0; k < 3; ++k) {
+			p[k] = sphere[positionOf(t[k])];
+			const DoubleDouble square = exactDot(p[k], p[k]);
+			norm[k] = std::sqrt(static_cast<double>(square));
+			const double error = std::abs(static_cast<double>(square - 1)) / (norm[k] + 1.0);
+			if (!(error <= check.radiusError))
+				check.radiusError =
+					std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+		}
+		const double size = norm[0] * norm[1] * norm[2], det = determinant(p[0], p[1], p[2]);
+		double cosines = size;
+		for (std::size_t k = 0; k < 3; ++k)
+			cosines += norm[k] * static_cast<double>(exactDot(p[(k + 1) % 3], p[(k + 2) % 3]));
+		sum += 2.0 * std::atan2(det, cosines);
+		check.turned += det < -kSphereRounding * size;
+	}
+	check.degree = static_cast<double>(sum) / (4.0 * kPi);
+	return check;
 }
 
 } // namespace ricci
