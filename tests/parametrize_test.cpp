@@ -9,6 +9,8 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/ricci.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,6 +42,30 @@ Box2 boxOf(const UV& uv)
 		for (const Point2& p : t)
 			box.add(p);
 	return box;
+}
+
+/// The faces as parametrizeEuclidean() draws them, each with the corners of the input.
+TEST(Flatten, GivesTheCornersOfEachFace)
+{
+	Random random(56);
+	for (const SurfaceMesh& mesh : {bumpyPatch(8), bumpyTorus(12, 8, random), tetrahedron()}) {
+		const TextureCoordinates map = flatten(mesh.positions, mesh.triangles);
+		const Parametrization whole = parametrizeEuclidean(mesh, VertexInput(), Options());
+		ASSERT_EQ(map.triangles.size(), mesh.triangles.size());
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+			EXPECT_EQ(map.face[f], static_cast<int>(f));
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_EQ(map.uv[at(map.triangles[f][k])], whole.mesh.at(static_cast<int>(f))[k]);
+		}
+		EXPECT_EQ(map.objective, whole.report.objective);
+		EXPECT_EQ(map.flippedFaces + map.overlappingFaces, 0);
+	}
+	struct Never : Progress
+	{
+		bool update(double, const std::string&) override { return false; }
+	} never;
+	EXPECT_THROW(flatten(tetrahedron().positions, tetrahedron().triangles, {}, &never), Cancelled);
+	EXPECT_THROW(flatten({{0, 0, 0}}, {{0, 1, 2}}), InvalidMesh);
 }
 
 TEST(Parametrize, APlaneIsMappedToItself)

@@ -12,7 +12,7 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Links from one node to another, some of them parallel, some loops.
 struct Graph
@@ -44,7 +44,7 @@ struct Graph
 	/// By relaxing all links until nothing changes.
 	Array<double> distances(const std::vector<int>& roots) const
 	{
-		Array<double> d(nodes, kFar);
+		Array<double> d(nodes, kInfinity);
 		for (int root : roots)
 			d[root] = 0.0;
 		for (int round = 0; round < nodes; ++round)
@@ -75,8 +75,8 @@ TEST(ShortestPaths, AreThoseOfBellmanAndFord)
 		EXPECT_EQ(paths.distance, graph.distances(roots));
 		for (int node = 0; node < n; ++node) {
 			const bool isRoot = std::find(roots.begin(), roots.end(), node) != roots.end();
-			unreached += paths.distance[node] == kFar;
-			if (isRoot || paths.distance[node] == kFar) {
+			unreached += paths.distance[node] == kInfinity;
+			if (isRoot || paths.distance[node] == kInfinity) {
 				EXPECT_EQ(paths.parent[node], -1);
 				continue;
 			}
@@ -100,11 +100,11 @@ TEST(SearchFront, GivesNodesByDistanceAndThenByNumberAndKeepsToItsBound)
 	for (int trial = 0; trial < 200; ++trial) { // one front serves them all
 		const Graph graph(40, random.index(160), random);
 		const std::vector<int> roots = someNodes(1 + random.index(3), 40, random);
-		const double bound = trial % 2 == 0 ? kFar : random.index(12);
+		const double bound = trial % 2 == 0 ? kInfinity : random.index(12);
 		const Array<double> distance = graph.distances(roots);
 		front.clear();
 		for (const int node : distance.indices()) {
-			ASSERT_EQ(front[node], kFar);
+			ASSERT_EQ(front[node], kInfinity);
 			ASSERT_EQ(front.parent(node), -1);
 		}
 		for (int root : roots)
@@ -149,7 +149,7 @@ TEST(SearchFront, TakesEqualDistancesByNumber)
 	EXPECT_EQ(order, (std::vector<int>{5, 0, 1, 2, 3, 4}));
 	EXPECT_EQ(front.parent(2), 2);
 	EXPECT_EQ(front.parent(4), 14);
-	EXPECT_EQ(front.nearest(), kFar);
+	EXPECT_EQ(front.nearest(), kInfinity);
 }
 
 } // namespace

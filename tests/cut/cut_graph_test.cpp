@@ -31,7 +31,7 @@ void expectCutToADisk(const Triangulation& t, const CutGraph& cut, const VertexA
 	EXPECT_EQ(cut.edgeCount, std::count(cut.isCut.begin(), cut.isCut.end(), 1));
 }
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 VertexArray<char> someVertices(int count, const Triangulation& t, Random& random)
 {
@@ -114,14 +114,14 @@ TEST(CutGraph, KeepsOffForbiddenEdges)
 	const auto free = cutToDisk(packed.triangulation, cost, unmarked);
 	for (const Edge e : cost.indices())
 		if (e.number() % 2 == 0 && free.isCut[e])
-			cost[e] = kFar;
-	ASSERT_GT(std::count(cost.begin(), cost.end(), kFar), 3);
+			cost[e] = kInfinity;
+	ASSERT_GT(std::count(cost.begin(), cost.end(), kInfinity), 3);
 	const auto cut = cutToDisk(packed.triangulation, cost, unmarked);
 	expectCutToADisk(packed.triangulation, cut, unmarked);
 	for (const Edge e : cost.indices())
-		EXPECT_FALSE(cost[e] == kFar && cut.isCut[e]);
+		EXPECT_FALSE(cost[e] == kInfinity && cut.isCut[e]);
 	// Not where the forbidden edges leave no way.
-	std::fill(cost.begin(), cost.end(), kFar);
+	std::fill(cost.begin(), cost.end(), kInfinity);
 	const auto error =
 		refusalOf<NotConverged>([&] { cutToDisk(packed.triangulation, cost, unmarked); });
 	EXPECT_EQ(error.problem, NotConverged::NoCut);

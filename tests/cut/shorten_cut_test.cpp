@@ -22,7 +22,7 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A cut that nobody would want: all edges but those that a breadth-first search of the faces
 /// crosses, less the dead ends without a mark.
@@ -91,7 +91,7 @@ void expectNoShorterPath(
 				ends.insert(wedge[h]);
 		const int from = boundaries.find(*ends.begin());
 		std::set<int> numbers;
-		std::vector<double> distance(at(t.halfedgeCount()), kFar);
+		std::vector<double> distance(at(t.halfedgeCount()), kInfinity);
 		for (const int end : ends) {
 			numbers.insert(boundaries.find(end));
 			if (boundaries.find(end) == from)
@@ -140,7 +140,7 @@ TEST(ShortenCut, StaysADiskThroughTheMarksAndGetsShorterUntilNoSegmentHasAShorte
 			++tried;
 			EdgeArray<char> isCut = clumsyCut(t, marked);
 			expectDiskThroughMarks(t, isCut, marked);
-			for (double before = kFar, now = lengthOf(isCut, p.lengths); now < before;) {
+			for (double before = kInfinity, now = lengthOf(isCut, p.lengths); now < before;) {
 				before = now;
 				shortenCut(t, p.lengths, marked, isCut);
 				now = lengthOf(isCut, p.lengths);
@@ -189,11 +189,11 @@ TEST(ShortenCut, KeepsOffForbiddenEdges)
 	EdgeArray<double> cost = p.lengths;
 	for (const Edge e : cost.indices())
 		if (e.number() % 3 == 0 && !isCut[e])
-			cost[e] = kFar;
+			cost[e] = kInfinity;
 	shortenCut(p.triangulation, cost, unmarked, isCut);
 	expectDiskThroughMarks(p.triangulation, isCut, unmarked);
 	for (const Edge e : cost.indices())
-		EXPECT_FALSE(cost[e] == kFar && isCut[e]);
+		EXPECT_FALSE(cost[e] == kInfinity && isCut[e]);
 }
 
 } // namespace

@@ -78,11 +78,11 @@ TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
 TEST(Repair, ValidMeansValidInFloatsWhereFloatsAreStored)
 {
 	FlatMesh flat = square();
-	constexpr double kFar = 0x1p20; // where a float's step is an eighth
+	constexpr double kInfinity = 0x1p20; // where a float's step is an eighth
 	for (const int p : flat.place.indices())
-		flat.place[p] = {flat.place[p][0] + kFar, flat.place[p][1] + kFar};
+		flat.place[p] = {flat.place[p][0] + kInfinity, flat.place[p][1] + kInfinity};
 	const int v = vertexAt(6, 6);
-	flat.place[v][0] = kFar + 6.97; // rounds to its neighbour's
+	flat.place[v][0] = kInfinity + 6.97; // rounds to its neighbour's
 	const Validity floats{0.2, 0.3, true};
 	const Validity doubles{0.001, 0.3, false};
 	EXPECT_TRUE(badTriangles(flat, doubles).empty());

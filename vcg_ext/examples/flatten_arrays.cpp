@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flattens the surface of a cube, given as arrays, and prints its texture coordinates.
-#include <ricci/error.h>
-#include <ricci/parametrize.h>
+#include <ricci/ricci.h>
 
+#include <algorithm>
 #include <cstdio>
 
 int main()
 {
-	ricci::SurfaceMesh cube;
+	std::vector<std::array<double, 3>> positions;
 	for (int i = 0; i < 8; ++i)
-		cube.positions.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
-	cube.triangles = {
+		positions.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
+	const std::vector<std::array<int, 3>> triangles = {
 		{0, 2, 1},
 		{1, 2, 3},
 		{4, 5, 6},
@@ -24,19 +24,14 @@ int main()
 		{1, 3, 5},
 		{3, 7, 5}};
 	try {
-		const ricci::Parametrization map =
-			ricci::parametrizeEuclidean(cube, ricci::VertexInput(), ricci::Options());
-		for (int t = 0; t < map.mesh.size(); ++t)
-			for (int k = 0; k < 3; ++k) {
-				const ricci::Point2& uv = map.mesh.at(ricci::Corner(t, k));
-				std::printf(
-					"face %d vertex %d: %g %g\n",
-					map.mesh.face[t],
-					map.mesh.vertices[t][k],
-					uv[0],
-					uv[1]);
+		const ricci::TextureCoordinates map = ricci::flatten(positions, triangles);
+		for (std::size_t f = 0; f < triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const auto& uv = map.uv[std::size_t(map.triangles[f][k])];
+				std::printf("face %zu vertex %d: %g %g\n", f, triangles[f][k], uv[0], uv[1]);
 			}
-		std::printf("%zu charts, distortion %g\n", map.charts.size(), map.report.qcAreaMean);
+		const int charts = 1 + *std::max_element(map.chart.begin(), map.chart.end());
+		std::printf("%d charts, objective %g\n", charts, map.objective);
 	}
 	catch (const ricci::Error& error) {
 		std::fprintf(stderr, "%s\n", error.what());

@@ -18,9 +18,6 @@ namespace {
 /// Beyond this genus the period matrix is left out: the log would drown in its numbers.
 constexpr int kMaxPeriodGenus = 10;
 
-/// Share of the part after the flow that the overlay takes before it is laid out.
-constexpr double kOverlay = 0.35;
-
 } // namespace
 
 void FlowLog::add(const Target& target)
@@ -93,7 +90,7 @@ CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, VertexArray
 	avoidDiagonals(domain.isDiagonal, cost);
 	for (const Edge e : domain.isForeign.indices())
 		if (domain.isForeign[e])
-			cost[e] = std::numeric_limits<double>::infinity();
+			cost[e] = kInfinity;
 	CutGraph cut = cutToDisk(t, cost, std::move(cones));
 	if (domain.holes > 0)
 		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cut);

@@ -15,9 +15,6 @@
 
 namespace ricci {
 
-/// Share of a component's progress that is spent before the flow, and after it.
-constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
-
 /// The flows of a component, those included whose metric was not taken.
 struct FlowLog
 {

@@ -4,6 +4,7 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/task.h"
+#include "base/tolerances.h"
 #include "cut/cut_graph.h"
 #include "flatten_steps.h"
 #include "hyperbolic/closing_error.h"
@@ -21,10 +22,6 @@
 namespace ricci {
 
 namespace {
-
-/// Hyperbolic distance from the centre of the disk beyond which a map is cut anew: a triangle of a
-/// fiftieth there is as small as a step of floats.
-constexpr double kWideRadius = 12.0;
 
 /// What a seam along each edge costs: its length in the metric of the flow.
 EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult& flow, Method method)
@@ -63,7 +60,7 @@ DiskMap layOut(
 	const Triangulation& t = domain.surface.triangulation;
 	DiskMap map;
 	map.layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
-	if (const double radius = radiusOf(map.layout.corners); radius > kWideRadius) {
+	if (const double radius = radiusOf(map.layout.corners); radius > kMaxTileDistance) {
 		cut = cutAroundCentre(t, cutCost(domain, flow, options.method), std::move(cut.cones));
 		map.layout =
 			layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);

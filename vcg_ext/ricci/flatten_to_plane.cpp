@@ -2,6 +2,7 @@
 #include "flatten.h"
 
 #include "base/convex_hull.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/task.h"
 #include "cones/area_change.h"
@@ -28,9 +29,6 @@
 namespace ricci {
 
 namespace {
-
-/// Of the edges of a free boundary, relative: less is not worth a line.
-constexpr double kKeptLength = 1e-3;
 
 /// What the holes are to the flow. Short ones are boundaries where they cannot be closed without flips, and
 /// where the target has values for the boundary that the surface has.
@@ -293,7 +291,7 @@ void finish(
 /// How the lengths of a free boundary compare in the map and on the mesh.
 void measureBoundary(const FlatMesh& map, Report& report)
 {
-	double least = std::numeric_limits<double>::infinity(), most = 0.0;
+	double least = kInfinity, most = 0.0;
 	for (const Corner side : map.across.indices()) {
 		if (map.across[side].isValid() || !(map.lengths[side] > 0.0))
 			continue;
@@ -305,7 +303,7 @@ void measureBoundary(const FlatMesh& map, Report& report)
 		return;
 	report.boundaryRatioMin = least;
 	report.boundaryRatioMax = most;
-	if (std::max(most - 1.0, 1.0 - least) > kKeptLength)
+	if (std::max(most - 1.0, 1.0 - least) > kUnequalShare)
 		logLine(
 			"Free boundary: in the map its edges are " + numberText(least, 3) + " to " +
 			numberText(most, 3) + " times as long as on the mesh.");
@@ -396,7 +394,7 @@ Parametrization
 flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	FlowPlan plan = startOfPlan(component, input, options);
-	completePlan(options, kNoAlternative, plan);
+	completePlan(options, kInfinity, plan);
 	return flattenToPlane(component, std::move(plan), options);
 }
 

@@ -39,7 +39,7 @@ bool mayUnfold(const Component& component, const Options& options)
 
 double totalOf(const std::optional<Parametrization>& map)
 {
-	return map ? costOf(*map).total() : kNoAlternative;
+	return map ? costOf(*map).total() : kInfinity;
 }
 
 /// "energy 4.01, seams 11.9 (objective 4.6)"

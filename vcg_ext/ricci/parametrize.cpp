@@ -23,9 +23,6 @@ namespace ricci {
 
 namespace {
 
-/// Share of the progress after which the charts are found.
-constexpr double kMapped = 0.95;
-
 /// Between charts that lie beside a disk: two pixels of a texture of a thousand.
 constexpr double kMarginBeside = 0.002;
 

@@ -87,10 +87,10 @@ private:
 Vertex choosePole(const Component& c)
 {
 	const int n = c.positions.size();
-	VertexArray<double> minAngle(n, std::numeric_limits<double>::infinity());
-	VertexArray<double> nearest(n, std::numeric_limits<double>::infinity()); // neighbour
+	VertexArray<double> minAngle(n, kInfinity);
+	VertexArray<double> nearest(n, kInfinity); // neighbour
 	for (const Triangle& t : c.triangles) {
-		double angle = std::numeric_limits<double>::infinity();
+		double angle = kInfinity;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Vertex v(t[k]), next(t[(k + 1) % 3]);
 			const Vector o = vec(c.positions[v]);
@@ -253,7 +253,7 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 			base > 0.0
 				? quasiConformalDistortion(
 					  own, {{{0.0, 0.0}, {base, 0.0}, {a.dot(b) / base, normal.norm() / base}}})
-				: std::numeric_limits<double>::infinity();
+				: kInfinity;
 		if (!std::isfinite(qc))
 			continue;
 		sum += before.back() * qc;
@@ -366,8 +366,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	// A face that spans more than a hemisphere is a straight triangle on the other side, flipped:
 	// one covering less.
 	const double coverings = std::round(check.degree);
-	if (!(check.radiusError <= kCheckedRadius) ||
-		!(std::abs(check.degree - coverings) <= kCheckedDegree) ||
+	if (!(check.radiusError <= kCancelled) || !(std::abs(check.degree - coverings) <= kTiny) ||
 		std::abs(coverings - 1.0) > map.flippedFaces || check.turned > map.flippedFaces)
 		throw NotConverged(
 			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +

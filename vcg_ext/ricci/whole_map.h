@@ -41,9 +41,6 @@ WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const 
 /// Appends the map of a component, in its indices, to that of the surface that it is a component of.
 void append(const Component& component, Parametrization part, Parametrization& whole);
 
-/// Share of the progress after which all components are mapped.
-constexpr double kComponentsDone = 0.9;
-
 /// Of all of them together.
 std::size_t faceCount(const std::vector<Component>& components);
 

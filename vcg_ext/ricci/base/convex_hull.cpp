@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convex_hull.h"
 
+#include "numbers.h"
 #include "points.h"
 
 #include <algorithm>
@@ -15,9 +16,6 @@ namespace ricci {
 
 namespace {
 
-/// More than the rounding error of a doubled area, in units of the square of the largest coordinate.
-constexpr double kAreaRounding = 64.0 * std::numeric_limits<double>::epsilon();
-
 /// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
 /// tell: they are no corners of the convex hull.
 void dropInside(std::vector<Point2>& points)
@@ -25,7 +23,7 @@ void dropInside(std::vector<Point2>& points)
 	static constexpr std::array<Point2, 8> directions{
 		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 	std::array<double, 8> farthest;
-	farthest.fill(-std::numeric_limits<double>::infinity());
+	farthest.fill(-kInfinity);
 	std::array<Point2, 8> polygon{}; // counter-clockwise
 	double largest = 0.0;
 	for (const Point2& p : points) {
@@ -38,8 +36,10 @@ void dropInside(std::vector<Point2>& points)
 			}
 	}
 	// A polygon that is seen counter-clockwise on all sides goes round.
-	const double minArea =
-		std::max(kAreaRounding * largest * largest, std::numeric_limits<double>::min());
+	// More than the rounding error of a doubled area.
+	const double minArea = std::max(
+		64.0 * std::numeric_limits<double>::epsilon() * largest * largest,
+		std::numeric_limits<double>::min());
 	const auto isInside = [&](const Point2& p) {
 		for (std::size_t k = 0; k < 8; ++k) {
 			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
@@ -57,7 +57,7 @@ struct SpareSide
 {
 	std::size_t side = 0;
 	Point2 corner{0.0, 0.0};
-	double area = std::numeric_limits<double>::infinity(); ///< twice what is added
+	double area = kInfinity; ///< twice what is added
 };
 
 /// The side of a convex polygon that adds the least area. Infinite area if neighbours meet nowhere.
@@ -124,7 +124,7 @@ uphill(const std::vector<Point2>& hull, std::size_t from, double& highest, const
 std::size_t bestSide(const std::vector<Point2>& hull)
 {
 	std::size_t best = 0, right = 0, upper = 0, left = 0;
-	double minArea = std::numeric_limits<double>::infinity();
+	double minArea = kInfinity;
 	for (std::size_t i = 0; i < hull.size(); ++i) {
 		const OrientedRectangle r = frameAlong(hull, i);
 		const auto x = [&](const Point2& p) { return r.inFrame(p)[0]; };

@@ -4,6 +4,7 @@
 #define RICCI_GRAPHS_H
 
 #include "indexed.h"
+#include "numbers.h"
 
 #include <algorithm>
 #include <functional>
@@ -179,9 +180,6 @@ private:
 	Queue m_queue;
 };
 
-/// The distance of what is not reached.
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
 /// Distances from some roots, and the way there.
 template<class Node, class Link>
 struct ShortestPaths
@@ -201,7 +199,7 @@ class SearchFront
 public:
 	explicit SearchFront(int nodeCount)
 	{
-		m_paths.distance.assign(nodeCount, kFar);
+		m_paths.distance.assign(nodeCount, kInfinity);
 		m_paths.parent.assign(nodeCount, Link(-1));
 	}
 
@@ -209,7 +207,7 @@ public:
 	void clear()
 	{
 		for (const Node node : m_reached) {
-			m_paths.distance[node] = kFar;
+			m_paths.distance[node] = kInfinity;
 			m_paths.parent[node] = Link(-1);
 		}
 		m_reached.clear();
@@ -222,7 +220,7 @@ public:
 		double& known = m_paths.distance[node];
 		if (!(distance < known))
 			return;
-		if (known == kFar)
+		if (known == kInfinity)
 			m_reached.push_back(node);
 		known = distance;
 		m_paths.parent[node] = link;
@@ -234,11 +232,14 @@ public:
 	{
 		while (!m_queue.empty() && m_queue.top().first != m_paths.distance[m_queue.top().second])
 			m_queue.pop();
-		return m_queue.empty() ? kFar : m_queue.top().first;
+		return m_queue.empty() ? kInfinity : m_queue.top().first;
 	}
 
 	/// The next node, whose distance is final, or Node(-1) if none nearer than \p bound is left.
-	Node next(double bound = kFar) { return nearest() < bound ? m_queue.pop().second : Node(-1); }
+	Node next(double bound = kInfinity)
+	{
+		return nearest() < bound ? m_queue.pop().second : Node(-1);
+	}
 
 	double operator[](Node node) const { return m_paths.distance[node]; }
 	Link parent(Node node) const { return m_paths.parent[node]; }
@@ -262,7 +263,7 @@ shortestPaths(int nodeCount, const std::vector<Node>& roots, const ForNeighbours
 	SearchFront<Node, Link> front(nodeCount);
 	for (const Node root : roots)
 		front.offer(root, 0.0);
-	while (front.nearest() < std::numeric_limits<double>::infinity()) {
+	while (front.nearest() < kInfinity) {
 		const Node node = front.next();
 		const double distance = front[node];
 		forNeighbours(node, [&](Node neighbour, double length, Link link) {

@@ -15,19 +15,14 @@ namespace {
 /// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 1e6 faces
 /// (1.2 to 1.4 kB for each, 1.8 with the common refinement). A flow on the double of a surface with
 /// boundary cannot be foreseen, see requireMemoryForDouble().
-constexpr double kEveryFace = 350.0, kFaceAtWork = 450.0, kFaceInFactor = 35.0;
+/// Then of the arrays for the output of the common refinement, for each face at work; and for each crossing of the
+/// overlay, measured on cylinders whose caps are fans.
+constexpr double kEveryFace = 350.0, kFaceAtWork = 450.0, kFaceInFactor = 35.0,
+				 kFaceRefined = 400.0, kCrossing = 390.0, kCrossingRefined = 760.0;
 
-/// Of the arrays for the output of the common refinement, for each face at work.
-constexpr double kFaceRefined = 400.0;
-
-/// For each crossing of the overlay, measured on cylinders whose caps are fans.
-constexpr double kCrossing = 390.0, kCrossingRefined = 760.0;
-
-/// More faces than this have more halfedges than int has numbers, or could have after refinement.
-constexpr std::size_t kMaxFaces = 300000000;
-
-/// A crossing makes up to eight corners of pieces, which int has to number.
-constexpr std::size_t kMaxCrossings = 250000000;
+/// More faces than this have more halfedges than int has numbers, or could have after refinement; and a crossing
+/// makes up to eight corners of pieces, which int has to number.
+constexpr std::size_t kMaxFaces = 300000000, kMaxCrossings = 250000000;
 
 void requireBytes(double needed, TooLarge::Problem problem, std::size_t count)
 {

@@ -9,6 +9,8 @@
 
 namespace ricci {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 constexpr double kPi = 3.14159265358979323846;
 
 /// pi less the double next to it.

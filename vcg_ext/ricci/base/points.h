@@ -2,6 +2,8 @@
 #ifndef RICCI_POINTS_H
 #define RICCI_POINTS_H
 
+#include "numbers.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -148,8 +150,8 @@ inline Point2 asPoint(std::complex<double> z)
 /// Smallest box along the axes round the points that were added.
 struct Box2
 {
-	Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-	Point2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+	Point2 min{kInfinity, kInfinity};
+	Point2 max{-kInfinity, -kInfinity};
 
 	void add(const Point2& p)
 	{

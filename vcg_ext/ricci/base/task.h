@@ -59,6 +59,12 @@ private:
 	std::chrono::steady_clock::time_point m_start;
 };
 
+/// Shares of progress: of a component, spent before its flow and after it; of the part after it, that of the overlay, and
+/// in this, until the pieces are linked; of the layout of a refinement, until its triangles lie; of all components, until
+/// they are mapped; and of a run, until it has its charts.
+constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1, kOverlay = 0.35, kDivided = 0.5,
+				 kLaidOut = 0.85, kComponentsDone = 0.9, kMapped = 0.95;
+
 /// Ends the run if its listener has cancelled it or its time is over. To be called in every loop that can
 /// be long, many times a second; in a thread that helps another one it ends the help once that has failed.
 /// \throw Cancelled, TimeOut

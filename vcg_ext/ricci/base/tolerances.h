@@ -21,17 +21,9 @@ constexpr double kCircleTolerance = 1e-10;
 /// Weaker ones open the layout by less than kCheckedGap of its extent.
 constexpr double kConeCurvature = 1e-9;
 
-/// The check of a finished metric allows this beside the residual and what rounding explains:
-/// curvature in radians, lengths relative.
-constexpr double kCheckedCurvature = 1e-8, kCheckedLength = 1e-9;
-
 /// The check of a finished map allows this gap of seams: a share of the layout's extent, a thousandth
 /// of a texel; or a hyperbolic length. Charts may cover themselves as deep, as a share of the largest.
 constexpr double kCheckedGap = 1e-6;
-
-/// The check of a map to the sphere: distance from the unit sphere, and from covering it a whole
-/// number of times.
-constexpr double kCheckedRadius = 1e-12, kCheckedDegree = 1e-9;
 
 /// A canonical polygon whose last side misses the first corner by more than this hyperbolic distance
 /// is not drawn.
@@ -41,50 +33,25 @@ constexpr double kMaxPolygonGap = 1e-2;
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon();
 
+/// What rounding leaves of numbers of order 1: after a few operations; after a hundred, or a solved system; where
+/// some digits have cancelled; and where a third of them have, so that what is smaller counts as 0.
+constexpr double kFewRoundings = 1e-15, kManyRoundings = 1e-14, kCancelled = 1e-12, kTiny = 1e-9;
+
 /// Coordinates beyond this, and components smaller than its inverse, are refused: products of four
 /// lengths must be numbers. Every mesh in single precision is within these.
 constexpr double kMaxCoordinate = 1e50, kMinComponentSize = 1e-50;
-
-/// A component is a line if twice the area of each of its triangles is below this share of the square
-/// of its longest side: the corners' own rounding to float moves that quotient by about 1e-7, but a
-/// double may hold it exactly.
-constexpr double kMinComponentArea = 1e-12;
 
 /// A triangle whose longest side is within this, relative to itself, of the sum of the other two has
 /// no shape that rounding respects: some hundred units of roundoff.
 constexpr double kDegenerateTriangle = 1e-13;
 
-/// Neither has one whose sides differ by more than this factor: rounding moves its angles by as many
-/// units of the last place.
-constexpr double kNeedleRatio = 1e6;
-
-/// Height of a triangle over its longest side below which its shape is rounding. It is left out of
-/// distortions.
-constexpr double kMinTriangleHeight = 1e-9;
-
 /// The same for a triangle that is known by the lengths of its sides alone, which say less.
 constexpr double kMinIntrinsicHeight = 1e-6;
-
-/// An edge of the plane metric counts as Delaunay while its weight is above minus this share of the
-/// size of its terms. The terms pass through a square root of products of four sums, which rounds
-/// about ten times as much as a conformal flip.
-constexpr double kMetricTie = 1e-14;
-
-/// The same for the test of conformal flips, T_k + T_l: the largest relative rounding of T that was
-/// observed is 4e-16, and no edge of a million near ties failed the test before and after its flip.
-constexpr double kConformalTie = 1e-15;
-
-/// A weight of the Hessian, of order 1, above minus this is that of co-circular triangles.
-constexpr double kTieWeight = 1e-9;
 
 /// What rounding may make of a prescribed curvature, in units of the precision of its values: the
 /// share of sum |K| (and, in double, of 2 pi a vertex) between the sum and Gauss-Bonnet, and values
 /// that count as 0.
 constexpr double kPrescribedRounding = 4.0;
-
-/// First shift of a matrix that is not positive definite, relative to its largest diagonal entry:
-/// somewhat above the rounding of a factorisation.
-constexpr double kFirstShift = 1e-14;
 
 /// How far the estimate of Newton's rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
@@ -92,40 +59,17 @@ constexpr double kFloorUncertainty = 20.0;
 /// Orders of magnitude between scale factors whose squares the digits of a double still hold.
 constexpr double kMaxScales = 7.0;
 
-/// Distance of the barycentre of points on the circle from its centre at which it counts as there.
-constexpr double kCentredArcs = 1e-15;
-
-/// The balancing of points on the sphere: |sum w x| / sum w that counts as balanced; where a step
-/// that gains nothing has reached the limit of rounding; slope, per unit of weight, that is rounding
-/// alone.
-constexpr double kBalanced = 1e-14, kStalledBalance = 1e-10, kNoSlope = 1e-14;
-
-/// A step of the search for rounded curvatures must lower the energy by this share of its scale.
-constexpr double kMinRoundingGain = 1e-12;
+/// |sum w x| / sum w of points on the sphere where a step of their balancing that gains nothing has reached the limit
+/// of rounding.
+constexpr double kStalledBalance = 1e-10;
 
 /// The smoothing of a surface for the cost of seams: divisor in place of four times an area of 0;
-/// bound of cotangents; smallest weight of an edge, so that the matrix is positive definite; share of
-/// the mean mass that every vertex has at least; height, relative to the root of the area, below
-/// which the surface is a plane.
+/// bound of cotangents; smallest weight of an edge, so that the matrix is positive definite.
 constexpr double kNoArea = 1e-300, kMaxCotangent = 1e3, kMinCotangentWeight = 1e-6;
-constexpr double kMassShare = 1e-9, kFlatness = 1e-9;
-
-/// Shares of crossings on an edge stay this far from 0 and 1: rounding must not put a crossing on a
-/// vertex.
-constexpr double kEndGap = 1e-14;
-
-/// A crossing with an input edge and one with an end edge are one node if their shares of the start
-/// edge differ by no more than this.
-constexpr double kMergeGap = 1e-12;
 
 /// A difference below this share of its terms has lost the digits that places of crossings need: they are
 /// found in extended precision.
 constexpr double kMinDifference = 1e-6;
-
-/// Two sides of a seam that lie this near to each other, relative to the size of the layout, are at
-/// one place; and two triangles that cover each other no deeper than this only touch. A layout is
-/// closed up to the sum of what its angles round.
-constexpr double kOnePlace = 1e-9, kTouching = 1e-9;
 
 /// Least height that triangles are given, relative to the extent of the map: eight steps of a float
 /// below 1. And in floats, in steps at the largest coordinate: rounding takes less than two. Triangles
@@ -157,10 +101,6 @@ constexpr double kMinPadding = 2e-5;
 /// Charts are turned, and placed by their outlines, where the square's side gets shorter by this share:
 /// for less, upright charts are worth more.
 constexpr double kWorthTurning = 0.01;
-
-/// |Re tau| this near to its bound, or |tau| this near to 1, counts as on the border of the
-/// fundamental domain.
-constexpr double kDomainBorder = 1e-12;
 
 /// Rounding that the checks of a result allow for: in a coordinate of the disk; in a determinant of
 /// three points of the sphere; in a length, in units of roundoff.

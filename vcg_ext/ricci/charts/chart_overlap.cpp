@@ -18,10 +18,6 @@ namespace ricci {
 
 namespace {
 
-/// Steps, and hulls that are joined, between two checkpoints.
-constexpr std::int64_t kStepsBetweenTicks = 1 << 18;
-constexpr int kJoinsBetweenTicks = 1 << 14;
-
 /// Steps for each triangle from which on hulls save more than they cost: boxes of triangles of
 /// good shape meet in about ten pairs.
 constexpr std::int64_t kManySteps = 64;
@@ -151,7 +147,7 @@ OverlapSearch::OverlapSearch(const FlatMesh& charts, double touching) :
 /// \param charts of the triangles, or none
 OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* charts) :
 		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
-		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
+		m_touching(touching >= 0.0 ? touching : kTiny * m_tree.extent())
 {
 	Box2 box;
 	double area = 0.0; // that the sheets cover together
@@ -278,8 +274,7 @@ int OverlapSearch::partner(int i) const
 
 void OverlapSearch::step() const
 {
-	if (++m_steps % kStepsBetweenTicks == 0)
-		checkpoint();
+	checkpointNowAndThen(static_cast<std::size_t>(++m_steps));
 	if (m_hulls.empty() && m_steps > kManySteps * m_plane.size())
 		makeHulls();
 }
@@ -333,8 +328,7 @@ void OverlapSearch::makeHulls() const
 			return turn == 0 ? Polygon() : corners;
 		},
 		[&](const Polygon& a, const Polygon& b) {
-			if (++joins % kJoinsBetweenTicks == 0)
-				checkpoint();
+			checkpointNowAndThen(++joins);
 			Polygon both = a;
 			both.insert(both.end(), b.begin(), b.end());
 			return enclosingPolygon(convexHull(std::move(both)), kMaxCorners);

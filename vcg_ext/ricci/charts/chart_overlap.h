@@ -30,7 +30,7 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 
 /// Finds pairs of triangles that cover a part of the plane twice.
 ///
-/// These overlap() by more than kTouching. Candidates come from a tree of bounding boxes; where these
+/// These overlap() by more than kTiny. Candidates come from a tree of bounding boxes; where these
 /// meet in many more pairs than there are triangles, as they do round a vertex of many long triangles,
 /// convex polygons round the tree's nodes are compared, too. So neither the chart's topology nor its
 /// boundary matters: holes, slits whose sides coincide, and parts that
@@ -46,7 +46,7 @@ class OverlapSearch
 public:
 	/// Compares all triangles.
 	/// \param triangles in the plane; counter-clockwise where they are right
-	/// \param touching depth to which triangles only touch; -1: kTouching of their extent
+	/// \param touching depth to which triangles only touch; -1: kTiny of their extent
 	explicit OverlapSearch(Array<Triangle2> triangles, double touching = -1.0);
 
 	/// The same pairs. They are followed from the borders of the charts where these are short and no triangle

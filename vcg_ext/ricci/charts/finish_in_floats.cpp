@@ -89,7 +89,7 @@ public:
 		for (const int f : patch.triangles)
 			box.add(boxOf(flat.at(f)));
 		if (m_limits && !isIn(box, *m_limits))
-			return std::numeric_limits<double>::infinity();
+			return kInfinity;
 		Array<Triangle2> near;
 		std::vector<char> isOwn;
 		for (const int f : flat.points.indices())

@@ -37,8 +37,8 @@ MovableParts::MovableParts(
 		if (!m_all)
 			m_origins.push_back({triangles, BoxTree(boxes)});
 	}
-	m_onePlace = kOnePlace * whole.extent();
-	m_touching = kTouching * whole.extent();
+	m_onePlace = kTiny * whole.extent();
+	m_touching = kTiny * whole.extent();
 	commit();
 }
 

@@ -16,9 +16,6 @@ namespace ricci {
 
 namespace {
 
-/// A curvature above its bound by less than this, in radians, is so by rounding.
-constexpr double kSlack = 1e-12;
-
 /// Steps of the search, for each cone.
 constexpr int kStepsPerCone = 50;
 
@@ -32,7 +29,7 @@ public:
 			m_gram(kQuarterTurn * kQuarterTurn * gram)
 	{
 		for (int i = 0; i < size(); ++i)
-			m_turns[i] = std::min<double>(kMaxQuarterTurns, std::round(values[i] / kQuarterTurn));
+			m_turns[i] = std::min(kMaxQuarterTurns, std::round(values[i] / kQuarterTurn));
 		const Eigen::VectorXd scaled = kQuarterTurn * linear;
 		m_slope = m_gram * m_turns + scaled;
 	}
@@ -74,7 +71,7 @@ private:
 	/// Half of what the energy rises by if curvature \p i changes by one quarter turn.
 	double cost(int i, double by) const
 	{
-		return m_turns[i] + by > kMaxQuarterTurns ? std::numeric_limits<double>::infinity()
+		return m_turns[i] + by > kMaxQuarterTurns ? kInfinity
 												  : by * m_slope[i] + 0.5 * m_gram(i, i);
 	}
 
@@ -88,7 +85,7 @@ private:
 	std::pair<int, int> best(bool keepSum) const
 	{
 		std::pair<int, int> found{-1, -1};
-		double lowest = -kMinRoundingGain * (1.0 + std::abs(m_gram(0, 0)));
+		double lowest = -kCancelled * (1.0 + std::abs(m_gram(0, 0)));
 		const auto consider = [&](int up, int down, double change) {
 			if (change < lowest) {
 				lowest = change;
@@ -137,7 +134,7 @@ Eigen::VectorXd boundMultipliers(
 	for (int i = 0; i < m.size(); ++i)
 		if (m[i] > 0.0)
 			held.push_back(i);
-	double last = -std::numeric_limits<double>::infinity();
+	double last = -kInfinity;
 	for (;;) {
 		// Towards the minimum with these at the bound, until one is pushed against it no longer.
 		const Eigen::VectorXd wanted = multipliers(inverse, held, excess);
@@ -159,7 +156,7 @@ Eigen::VectorXd boundMultipliers(
 		Eigen::VectorXd above = excess - inverse * m;
 		above(held).setZero();
 		int first = 0;
-		if (!(rise > last) || m.size() == 0 || above.maxCoeff(&first) <= kSlack)
+		if (!(rise > last) || m.size() == 0 || above.maxCoeff(&first) <= kCancelled)
 			return m;
 		last = rise;
 		held.push_back(first);

@@ -3,6 +3,8 @@
 #ifndef RICCI_CONE_CURVATURES_H
 #define RICCI_CONE_CURVATURES_H
 
+#include "../base/numbers.h"
+
 #include <Eigen/Core>
 
 #include <optional>
@@ -11,8 +13,7 @@
 namespace ricci {
 
 /// The largest curvature of a placed cone, 3 pi / 2 in radians: its angle is at least a right one.
-constexpr double kMaxConeCurvature = 4.71238898038468985769;
-constexpr int kMaxQuarterTurns = 3; ///< the same
+constexpr double kMaxQuarterTurns = 3.0, kMaxConeCurvature = kMaxQuarterTurns * kQuarterTurn;
 
 /// The multipliers m that hold entries of a minimum k at given values: k - H m has them.
 /// \param inverse H: of G or, where the sum of the entries is fixed, of G with a row and a column of ones

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_model.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 
 #include <Eigen/Cholesky>
@@ -362,7 +363,7 @@ double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) cons
 	const Fit& fit = m_now.fit;
 	const int row = i + border();
 	const double pivot = m_now.inverse.rows() > 0 ? m_now.inverse(row, row) : 0.0;
-	const double unknown = -std::numeric_limits<double>::infinity();
+	const double unknown = -kInfinity;
 	if (!(pivot > 0.0))
 		return unknown;
 	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.minimum[i];

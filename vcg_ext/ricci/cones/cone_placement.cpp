@@ -3,6 +3,7 @@
 
 #include "../base/parallel.h"
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 #include "area_change.h"
 #include "cone_search.h"
@@ -27,9 +28,6 @@ constexpr double kSeamAllowance = 1.05;
 /// them, and less is worth while where there is another map.
 constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
 			  kMaxConeNumbersBeside = 600000;
-
-/// Cones move once the distortion is within this factor of the wanted one.
-constexpr double kNearlyEnough = 1.1;
 
 /// On more vertices than the first number, cones are searched for on at most so many aggregates of
 /// them as the second.
@@ -72,8 +70,7 @@ int maxCones(const ConeModel& model, const ConeRequest& request)
 {
 	// There are none if all lie on a boundary that is free.
 	const auto vertices = static_cast<int>(model.area().size());
-	const int numbers =
-		request.alternative < kNoAlternative ? kMaxConeNumbersBeside : kMaxConeNumbers;
+	const int numbers = request.alternative < kInfinity ? kMaxConeNumbersBeside : kMaxConeNumbers;
 	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
 }
 
@@ -139,7 +136,7 @@ private:
 	SeamTree m_tree;
 	int m_most, m_best; // numbers of cones
 	double m_least;
-	MapCost m_last{std::numeric_limits<double>::infinity()}; // at the last call of mayFallBelow()
+	MapCost m_last{kInfinity}; // at the last call of mayFallBelow()
 };
 
 /// As many cones as lower the energy and the price of the seams together: more than those at first, then
@@ -159,7 +156,7 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 		SeamTree tree(sites, model.vertices());
 		if (!dropCostlyCones(model, tree) && round > 0)
 			return;
-		shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
+		shortenConeTree(model, tree, sites, kInfinity);
 	}
 }
 
@@ -174,7 +171,7 @@ void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSi
 		model.setRounding(ConeRounding::Free);
 		if (!growth.add())
 			break;
-		if (model.distortion() <= kNearlyEnough * request.distortion)
+		if (model.distortion() <= kSpreadSlack * request.distortion)
 			relocateCones(model, sites);
 		model.setRounding(request.rounding);
 	}
@@ -195,7 +192,7 @@ void addForAreas(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	const int limit = std::min(model.size() + kMaxMoreCones, maxCones(model, request));
+	const int limit = std::min(model.size() + kMaxPlacedCones, maxCones(model, request));
 	model.setRounding(request.rounding);
 	while (model.size() < limit &&
 		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {

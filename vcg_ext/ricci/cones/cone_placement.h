@@ -2,6 +2,7 @@
 #ifndef RICCI_CONE_PLACEMENT_H
 #define RICCI_CONE_PLACEMENT_H
 
+#include "../base/numbers.h"
 #include "../flow/target.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
@@ -10,16 +11,13 @@
 
 namespace ricci {
 
-/// Cones that moreCones() adds at a time.
-constexpr int kMaxMoreCones = 64;
-
 /// Which cones placeCones() looks for, and where.
 struct ConeRequest : ConeOptions
 {
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
-	double alternative = kNoAlternative;
+	double alternative = kInfinity;
 };
 
 /// Cones that placeCones() has found.
@@ -74,7 +72,7 @@ PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request);
 
 /// Fits the curvatures of the cones that \p flow has reached anew, and adds cones, until areas are
-/// expected to change as \p request allows (areaExcess() at its distortion), or kMaxMoreCones were
+/// expected to change as \p request allows (areaExcess() at its distortion), or 64 were
 /// added. The linear problem is that of the metric of \p flow, where it knows how far the first
 /// one was from the truth. Mean squares weigh the parts of the surface that have become very small or
 /// very large, see tailWeights().

@@ -20,14 +20,14 @@ namespace {
 /// A cone this weak, in radians, is better placed anew than moved.
 constexpr double kNegligible = 0.3;
 
-/// Places down the gradient that are tried.
-constexpr int kMaxTrials = 4;
+/// Places down the gradient that are tried, and rounds in which every cone may move.
+constexpr int kMaxTrials = 4, kMaxRounds = 4;
+
+/// Cones of which one may be dropped, and trials of one cone's move.
+constexpr std::size_t kMaxDropTrials = 3, kMaxAttempts = 3;
 
 /// Of several cones that are added at once, each gains at least about this share of the best.
 constexpr double kMinPeak = 0.5;
-
-/// Cones of which one may be dropped.
-constexpr std::size_t kMaxDropTrials = 3;
 
 /// A move must lower the energy by this share.
 constexpr double kMinGain = 0.005;
@@ -35,11 +35,7 @@ constexpr double kMinGain = 0.005;
 /// A cone weaker than this, in radians, is not worth its seam.
 constexpr double kMinCurvature = 0.02;
 
-/// Rounds in which every cone may move.
-constexpr int kMaxRounds = 4;
-
-/// Trials of one cone's move, and how far it goes at once: not far beyond the next ones, where there are many.
-constexpr std::size_t kMaxAttempts = 3;
+/// How far a cone moves at once: not far beyond the next ones, where there are many.
 constexpr double kMaxStep = 0.25, kMaxStepOfMany = 2.0; // this over the root of their number
 
 /// A move must lower energy and price of seams together by this.
@@ -51,7 +47,7 @@ template<class Value>
 Vertex lowest(const ConeModel& model, const ConeSites& sites, const Value& value, Vertex freed = {})
 {
 	Vertex found;
-	double min = std::numeric_limits<double>::infinity();
+	double min = kInfinity;
 	for (const Vertex v : model.area().indices()) {
 		if (!sites.isAllowed(v) || (model.isCone(v) && v != freed))
 			continue;

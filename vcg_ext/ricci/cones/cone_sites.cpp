@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_sites.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../mesh/triangulation.h"
 #include "../metric/area.h"
@@ -31,7 +32,7 @@ ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 				for (const Halfedge h : t.halfedges())
 					add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
 			}),
-		m_toCut(surface.triangulation.vertexCount(), kFar)
+		m_toCut(surface.triangulation.vertexCount(), kInfinity)
 {
 	for (const Vertex v : m_isAllowed.indices())
 		m_isAllowed[v] = (vertices < 0 || v.number() < vertices) && !surface.topology.boundary[v];
@@ -105,7 +106,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 }
 
 ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :
-		m_toCut(chosen.size(), kFar), m_cutLength(fine.m_cutLength)
+		m_toCut(chosen.size(), kInfinity), m_cutLength(fine.m_cutLength)
 {
 	SearchFront<Vertex, Vertex> front(fine.m_isAllowed.size());
 	VertexArray<Vertex> nearest(fine.m_isAllowed.size());
@@ -151,7 +152,7 @@ SeamTree::SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones) :
 {
 	DistanceQueue<Vertex> queue;
 	for (const Vertex v : m_distance.indices())
-		if (m_distance[v] < kFar)
+		if (m_distance[v] < kInfinity)
 			queue.push(m_distance[v], v);
 	VertexArray<char> isLeft(m_uses.size(), 0);
 	int left = 0;
@@ -204,14 +205,14 @@ double SeamTree::remove(Vertex cone)
 	double length = 0.0;
 	for (Vertex v = cone; v.isValid() && --m_uses[v] == 0; v = m_next[v]) {
 		length += lengthOfStep(v);
-		m_distance[v] = kFar;
+		m_distance[v] = kInfinity;
 		loose.push_back(v);
 	}
 	// All whose shortest way led there look for another.
 	for (std::size_t i = 0; i < loose.size(); ++i)
 		for (const ConeSites::Way& way : m_sites->ways(loose[i]))
-			if (m_next[way.to] == loose[i] && m_distance[way.to] < kFar) {
-				m_distance[way.to] = kFar;
+			if (m_next[way.to] == loose[i] && m_distance[way.to] < kInfinity) {
+				m_distance[way.to] = kInfinity;
 				loose.push_back(way.to);
 			}
 	for (const Vertex v : loose) {
@@ -232,8 +233,8 @@ double SeamTree::remove(Vertex cone)
 double SeamTree::lengthOfStep(Vertex v) const
 {
 	if (!m_next[v].isValid())
-		return m_sites->toCut()[v] < kFar ? m_sites->toCut()[v] : 0.0;
-	double shortest = kFar;
+		return m_sites->toCut()[v] < kInfinity ? m_sites->toCut()[v] : 0.0;
+	double shortest = kInfinity;
 	for (const ConeSites::Way& way : m_sites->ways(v))
 		if (way.to == m_next[v])
 			shortest = std::min(shortest, way.length);
@@ -245,7 +246,7 @@ void SeamTree::spread(const std::vector<Vertex>& from)
 {
 	DistanceQueue<Vertex> queue;
 	for (const Vertex v : from)
-		if (m_distance[v] < kFar)
+		if (m_distance[v] < kInfinity)
 			queue.push(m_distance[v], v);
 	spread(queue, [](Vertex) { return false; });
 }

@@ -2,6 +2,7 @@
 #include "linear_flow.h"
 
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 #include "../flow/curvature_map.h"
 #include "../metric/circle_packing.h"
@@ -18,9 +19,6 @@
 namespace ricci {
 
 namespace {
-
-/// An edge with less than this share of a vertex's diagonal is one of rounding.
-constexpr double kNoEdge = 1e-9;
 
 /// The curvature map of \p packing at its radii.
 std::shared_ptr<const CurvatureMap> mapOf(const InitialPacking& packing)
@@ -115,7 +113,7 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 	VertexVector share = result.laplacian * Eigen::VectorXd::Ones(vertices.size());
 	for (const Vertex v : share.indices()) {
 		double& diagonal = result.laplacian.coeffRef(v.number(), v.number());
-		if (share[v] < kNoEdge * diagonal)
+		if (share[v] < kTiny * diagonal)
 			share[v] = 0.0;
 		diagonal -= share[v];
 	}

@@ -150,7 +150,7 @@ rectangleCorners(const std::vector<Vertex>& loop, const VertexArray<Point3>& pos
 		{{r.min[0], r.min[1]}, {r.max[0], r.min[1]}, {r.max[0], r.max[1]}, {r.min[0], r.max[1]}}};
 	std::array<std::size_t, 4> nearest{};
 	for (std::size_t k = 0; k < 4; ++k) {
-		double min = std::numeric_limits<double>::infinity();
+		double min = kInfinity;
 		for (std::size_t i = 0; i < points.size(); ++i) {
 			const double d = distance(r.inFrame(points[i]), wanted[k]);
 			if (d < min) {

@@ -4,6 +4,7 @@
 #include "../base/graphs.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../metric/geometry.h"
 #include "../numerics/double_double.h"
@@ -209,10 +210,6 @@ VertexVector holonomyByCurvature(
 
 namespace {
 
-/// A holonomy this near to a multiple of pi / 2 is one, radians: what the sums of some thousand angles
-/// lose.
-constexpr double kHolonomyRounding = 1e-12;
-
 constexpr int kMaxSteps = 12;
 
 /// The logarithm of a length changes by no more in a step.
@@ -330,7 +327,7 @@ public:
 	/// Newton's method gets there.
 	void solve(Metric& metric)
 	{
-		for (int step = 0; step < kMaxSteps && metric.error() > kHolonomyRounding; ++step) {
+		for (int step = 0; step < kMaxSteps && metric.error() > kCancelled; ++step) {
 			std::optional<Metric> next = searchAlong(metric, direction(metric));
 			if (!next)
 				return;

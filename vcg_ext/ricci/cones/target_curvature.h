@@ -2,6 +2,7 @@
 #ifndef RICCI_TARGET_CURVATURE_H
 #define RICCI_TARGET_CURVATURE_H
 
+#include "../base/numbers.h"
 #include "../flow/ricci_flow.h"
 #include "cone_placement.h"
 #include "prescribed_target.h"
@@ -14,9 +15,9 @@ namespace ricci {
 struct TargetRequest : TargetInput
 {
 	TargetOptions options;
-	bool measuresAreas = true;           ///< false: Automatic decides by topology alone
-	bool hasSeam = false;                ///< see OpenedMesh: Automatic makes no flat annulus of it
-	double alternative = kNoAlternative; ///< see ConeRequest
+	bool measuresAreas = true;      ///< false: Automatic decides by topology alone
+	bool hasSeam = false;           ///< see OpenedMesh: Automatic makes no flat annulus of it
+	double alternative = kInfinity; ///< see ConeRequest
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.

@@ -2,6 +2,7 @@
 #include "cut_graph.h"
 
 #include "../base/graphs.h"
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../mesh/triangulation.h"
@@ -46,7 +47,7 @@ public:
 
 	const Triangulation& surface() const { return m_t; }
 	double cost(Edge e) const { return m_cost[e]; }
-	bool isUsable(Edge e) const { return !m_t.isBoundary(e) && m_cost[e] < kFar; }
+	bool isUsable(Edge e) const { return !m_t.isBoundary(e) && m_cost[e] < kInfinity; }
 
 	Vertex node(Vertex v) const { return m_node[v]; }
 	Vertex from(Edge e) const { return node(m_t.origin(e.halfedge())); }
@@ -105,13 +106,13 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 			joined.merge(graph.node(t.origin(h)), graph.node(t.target(h)));
 		}
 	// Of the path or loop that an edge closes. The dual tree crosses first what the cut must not use.
-	EdgeArray<double> length(t.edgeCount(), kFar);
+	EdgeArray<double> length(t.edgeCount(), kInfinity);
 	std::vector<std::pair<double, Edge>> connections;
 	for (const Edge e : t.edges()) {
 		const Vertex a = graph.from(e), b = graph.to(e);
 		if (graph.isUsable(e))
 			length[e] = paths.distance[a] + graph.cost(e) + paths.distance[b];
-		if (length[e] < kFar && joined.find(a) != joined.find(b))
+		if (length[e] < kInfinity && joined.find(a) != joined.find(b))
 			connections.push_back({length[e], e});
 	}
 	std::sort(connections.begin(), connections.end());
@@ -119,7 +120,7 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 		if (joined.merge(graph.from(e), graph.to(e)))
 			isCut[e] = 1;
 	const std::vector<Edge> rest = edgesBesideCotree(t, isCut, length);
-	if (!rest.empty() && length[rest.front()] == kFar) // the longest
+	if (!rest.empty() && length[rest.front()] == kInfinity) // the longest
 		throw NotConverged(NotConverged::NoCut);
 	for (const Edge e : rest)
 		isCut[e] = 1;
@@ -364,7 +365,7 @@ VertexArray<double> exposure(
 	const double area = mass.sum();
 	if (!(area > 0.0))
 		return result;
-	mass.array() += kMassShare * area / static_cast<double>(t.vertexCount());
+	mass.array() += kTiny * area / static_cast<double>(t.vertexCount());
 	EdgeArray<double> weights = cotangentWeights(t, lengths, kMaxCotangent);
 	for (double& w : weights)
 		w = kSmoothing * area * std::max(w, kMinCotangentWeight);
@@ -391,7 +392,7 @@ VertexArray<double> exposure(
 	}
 	const double typical = std::sqrt(square / area);
 	// A sphere stands out everywhere alike; a plane not at all but for rounding.
-	if (typical > kFlatness * std::sqrt(area))
+	if (typical > kTiny * std::sqrt(area))
 		for (const Vertex v : t.vertices())
 			result[v] = 0.5 * (1.0 + std::tanh(height[v] / typical));
 	return result;

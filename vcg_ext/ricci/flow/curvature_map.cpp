@@ -378,7 +378,7 @@ bool FactoredHessian::factorize(const CurvatureMap& map)
 	m_isFactored = false;
 	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
 	while (!m_cholesky.factorize(m_hessian.matrix())) {
-		shift = std::max(kShiftGrowth * shift, kFirstShift * scale);
+		shift = std::max(kShiftGrowth * shift, kManyRoundings * scale);
 		if (!(shift <= scale) || std::isinf(shift))
 			throw SolverFailed(SolverFailed::Flow);
 		m_hessian.fill(map, shift);

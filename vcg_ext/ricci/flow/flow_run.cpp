@@ -22,17 +22,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Bisections of the radius of an inscribed polygon; about 55 halve an interval until it is empty.
-constexpr int kMaxBisections = 200;
-
-/// Steps of Newton's method for the conformal barycentre, which needs about ten.
-constexpr int kMaxCentringSteps = 100;
+/// Bisections of the radius of an inscribed polygon, of which about 55 halve an interval until it is empty; steps of
+/// Newton's method for the conformal barycentre, which needs about ten; and fixed-point iterations of the circle, each
+/// of which halves the error about without mixing.
+constexpr int kMaxBisections = 200, kMaxCentringSteps = 100, kMaxCircleSteps = 100;
 
 /// A step of that method that moves the centre further than this is too far.
 constexpr double kMaxCentringStep = 0.5;
-
-/// Fixed-point iterations of the circle; without mixing each one halves the error about.
-constexpr int kMaxCircleSteps = 100;
 
 /// Images that Anderson mixing combines.
 constexpr std::size_t kMixingDepth = 10;
@@ -129,7 +125,7 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 			square += weights[i] * z[i] * z[i];
 		}
 		b /= total, square /= total;
-		if (std::abs(b) < kCentredArcs)
+		if (std::abs(b) < kFewRoundings)
 			break;
 		Complex w = (b + square * std::conj(b)) / (1.0 - std::norm(square));
 		const double size = std::abs(w);
@@ -415,7 +411,7 @@ bool FlowRun::bendsAtBoundary() const
 {
 	const Triangulation& t = m_map->triangulation();
 	for (const Edge e : t.edges())
-		if (t.isBoundary(e) && m_map->weights()[e] < -kTieWeight)
+		if (t.isBoundary(e) && m_map->weights()[e] < -kTiny)
 			return true;
 	return false;
 }

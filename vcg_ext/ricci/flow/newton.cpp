@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "newton.h"
 
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ double NewtonSolver::residual(const VertexVector& target)
 	for (const Vertex v : m_gradient.indices()) {
 		m_gradient[v] = m_fixed[v] ? 0.0 : m_map->curvature()[v] - target[v];
 		if (!std::isfinite(m_gradient[v]))
-			return std::numeric_limits<double>::infinity();
+			return kInfinity;
 		largest = std::max(largest, std::abs(m_gradient[v]));
 	}
 	if (m_gaugeFree) {

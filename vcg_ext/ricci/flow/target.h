@@ -41,9 +41,6 @@ struct MapCost
 	double total() const { return energy + kSeamPrice * seams; }
 };
 
-/// The cost of a map that does not exist.
-constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
-
 /// The energy of a map: at the scale s it is s^2 \p forth + \p back / s^2 over \p area.
 /// \param forth, back integrals of |J|^2 and |J^-1|^2 over the \p area in space
 inline double energyAtBestScale(double forth, double back, double area)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canonical_generators.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 
@@ -53,7 +54,7 @@ ExtendedIsometry productOf(
 double sizeOf(const ExtendedIsometry& m)
 {
 	const auto size = static_cast<double>(norm(m.b));
-	return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+	return std::isfinite(size) ? size : kInfinity;
 }
 
 /// A word that is partly made canonical: it is [a1,b1] ... [ak,bk] times the open part, conjugated.
@@ -463,7 +464,7 @@ Handles bestConditioned(const std::vector<Handles>& bases, const std::vector<Iso
 	const std::size_t letters = 2 * bases.front().size();
 	const std::size_t tried = std::clamp<std::size_t>(
 		kTriedLetters / std::max<std::size_t>(1, letters * letters), 1, kMaxTried);
-	double lowest = std::numeric_limits<double>::infinity();
+	double lowest = kInfinity;
 	HandleMoves moves(bases.front().size(), peripheral);
 	for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) {
 		moves.start(bases[i]);

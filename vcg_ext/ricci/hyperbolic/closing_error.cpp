@@ -123,7 +123,7 @@ double closingError(const FlatMesh& disks, const std::vector<double>& curvature)
 {
 	struct Star
 	{
-		double angle = 0.0, shortest = std::numeric_limits<double>::infinity();
+		double angle = 0.0, shortest = kInfinity;
 		bool isOnSeam = false, isOnBoundary = false;
 	};
 	std::vector<Star> stars(positionOf(disks.vertexCount()));

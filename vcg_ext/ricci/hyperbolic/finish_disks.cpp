@@ -26,9 +26,6 @@ namespace {
 /// A part of a disk that is moved to the middle of its own may still overlap itself there, which is rare.
 constexpr int kMaxSeparations = 3;
 
-/// Steps on all triangles that a stage of the repair of disks may spend.
-constexpr std::int64_t kMaxSteps = 50;
-
 /// Some triangles of a chart, and their Voronoi cells.
 struct Cells
 {
@@ -217,13 +214,13 @@ int repairDisks(const DiskFinish& finish, Parametrization& map)
 	const Validity validity = diskValidity(map.charts.size());
 	Repair result;
 	const auto inside = [&](RestShapes rest) {
-		WorkLimit limit(map.mesh.size(), kMaxSteps);
+		WorkLimit limit(map.mesh.size(), WorkLimit::kFew);
 		result.add(repair(map.mesh, insidePoints(map.mesh), {rest, validity}, limit));
 	};
 	const auto inCover = [&](bool boundaryMoves) {
 		if (result.left == 0)
 			return;
-		WorkLimit limit(map.mesh.size(), kMaxSteps);
+		WorkLimit limit(map.mesh.size(), WorkLimit::kFew);
 		result.add(repairInCover(map.mesh, {shapes, validity}, boundaryMoves, limit));
 	};
 	inside(shapes);

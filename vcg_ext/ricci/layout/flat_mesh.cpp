@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_mesh.h"
 
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../mesh/sides.h"
 #include "../metric/area.h"
@@ -49,7 +50,7 @@ std::array<double, 2> FlatMesh::stretch(int triangle) const
 	const std::array<double, 3>& l = lengths[triangle];
 	const double area = euclideanArea(l);
 	const double longest = std::max({l[0], l[1], l[2]});
-	if (!(2.0 * area > kMinTriangleHeight * longest * longest))
+	if (!(2.0 * area > kTiny * longest * longest))
 		return {0.0, 0.0};
 	// On the surface from corner 0 along side 0, which has length a: the others end at (x, h).
 	const double a = l[0], h = 2.0 * area / a;
@@ -59,10 +60,7 @@ std::array<double, 2> FlatMesh::stretch(int triangle) const
 	const Point2 up = (1.0 / h) * ((p[2] - p[0]) - x * along);
 	const double square = dot(along, along) + dot(up, up);
 	const double determinant = cross(along, up) * cross(along, up);
-	return {
-		area * square,
-		determinant > 0.0 ? area * (square / determinant)
-						  : std::numeric_limits<double>::infinity()};
+	return {area * square, determinant > 0.0 ? area * (square / determinant) : kInfinity};
 }
 
 Box2 FlatMesh::box() const

@@ -2,6 +2,7 @@
 #ifndef RICCI_HYPERBOLIC_LAYOUT_H
 #define RICCI_HYPERBOLIC_LAYOUT_H
 
+#include "../base/numbers.h"
 #include "../mesh/triangulation.h"
 #include "../numerics/disk_isometry.h"
 #include "flat_mesh.h"
@@ -55,7 +56,7 @@ struct SidePairing
 	/// cosh^2(d / 2) over the two frames, where d is the frame's distance from 0. Products of
 	/// frames lose digits like the exponential of these distances. Infinite while nothing has been
 	/// offered.
-	double loss = std::numeric_limits<double>::infinity();
+	double loss = kInfinity;
 
 	ExtendedIsometry isometry() const { return (left * right.inverse()).normalised(); }
 

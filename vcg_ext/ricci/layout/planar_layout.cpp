@@ -107,7 +107,7 @@ loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArr
 		size = std::max({size, std::abs(p[0]), std::abs(p[1])});
 	// Points that are not numbers are apart.
 	const auto apart = [&](Halfedge a, Halfedge b) {
-		return !(distance(layout[a], layout[b]) <= kOnePlace * size);
+		return !(distance(layout[a], layout[b]) <= kTiny * size);
 	};
 	VertexArray<char> opens(t.vertexCount(), 0); // at an edge whose sides lie apart
 	for (const Edge e : t.edges()) {

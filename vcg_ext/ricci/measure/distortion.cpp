@@ -41,7 +41,7 @@ struct LaidOutTriangle
 	bool hasShape() const
 	{
 		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
-		return base > 0.0 && base * height > kMinTriangleHeight * longest * longest;
+		return base > 0.0 && base * height > kTiny * longest * longest;
 	}
 };
 
@@ -58,7 +58,7 @@ double distortionOf(const LaidOutTriangle& own, const Triangle2& plane)
 	const double alpha = std::abs(alongBase - i * across);
 	const double beta = std::abs(alongBase + i * across);
 	const double smaller = std::abs(alpha - beta);
-	return smaller > 0.0 ? (alpha + beta) / smaller : std::numeric_limits<double>::infinity();
+	return smaller > 0.0 ? (alpha + beta) / smaller : kInfinity;
 }
 
 int orientationInDisk(const Triangle2& p)
@@ -246,7 +246,7 @@ double stretchEnergy(const FlatMesh& mesh)
 		if (behind > 0.0)
 			total += euclideanArea(mesh.lengths[f]);
 	}
-	if (!(back < std::numeric_limits<double>::infinity()))
+	if (!(back < kInfinity))
 		return back;
 	return total > 0.0 ? energyAtBestScale(forth, back, total) : 4.0;
 }

@@ -36,12 +36,12 @@ std::complex<double> reduceToFundamentalDomain(std::complex<double> tau)
 		tau = std::conj(tau);
 	for (int step = 0; step < 1000; ++step) {
 		tau -= std::round(tau.real());
-		if (std::norm(tau) >= 1.0 - kDomainBorder)
+		if (std::norm(tau) >= 1.0 - kCancelled)
 			break;
 		tau = -1.0 / tau;
 	}
-	const bool onSide = tau.real() <= -0.5 + kDomainBorder;
-	const bool onArc = std::norm(tau) <= 1.0 + kDomainBorder && tau.real() < 0.0;
+	const bool onSide = tau.real() <= -0.5 + kCancelled;
+	const bool onArc = std::norm(tau) <= 1.0 + kCancelled && tau.real() < 0.0;
 	if (onSide)
 		tau += 1.0;
 	else if (onArc)
@@ -259,7 +259,7 @@ bool shorten(Eigen::MatrixXcd& omega, Eigen::Index i)
 	// With up to so many terms more, from first on; change is what has been added to the square of the length.
 	const std::function<bool(Eigen::Index, int, double)> add =
 		[&](Eigen::Index first, int terms, double change) {
-			if (change < -kDomainBorder * omega(i, i).imag()) {
+			if (change < -kCancelled * omega(i, i).imag()) {
 				for (const auto& [j, factor] : added)
 					addRow(omega, i, j, factor);
 				return true;
@@ -291,7 +291,7 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 	for (Eigen::Index i = 0; i < genus; ++i) { // the shortest first
 		Eigen::Index least = i;
 		for (Eigen::Index j = i + 1; j < genus; ++j)
-			if (omega(j, j).imag() < (1.0 - kDomainBorder) * omega(least, least).imag())
+			if (omega(j, j).imag() < (1.0 - kCancelled) * omega(least, least).imag())
 				least = j;
 		omega.row(i).swap(omega.row(least));
 		omega.col(i).swap(omega.col(least));
@@ -325,9 +325,9 @@ Eigen::MatrixXcd siegelReduced(Eigen::MatrixXcd omega)
 	for (int step = 0; step < 1000; ++step) {
 		reduceImaginaryPart(omega);
 		omega.real() =
-			omega.real().unaryExpr([](double x) { return x - std::ceil(x - 0.5 - kDomainBorder); });
+			omega.real().unaryExpr([](double x) { return x - std::ceil(x - 0.5 - kCancelled); });
 		const std::complex<double> corner = omega(0, 0);
-		if (std::norm(corner) >= 1.0 - kDomainBorder)
+		if (std::norm(corner) >= 1.0 - kCancelled)
 			break;
 		// a1 and b1 change places, which multiplies the imaginary part's determinant by 1 / |corner|^2.
 		const Eigen::VectorXcd row = omega.row(0);

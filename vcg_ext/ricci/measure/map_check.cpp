@@ -299,8 +299,7 @@ SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vecto
 			norm[k] = std::sqrt(static_cast<double>(square));
 			const double error = std::abs(static_cast<double>(square - 1)) / (norm[k] + 1.0);
 			if (!(error <= check.radiusError))
-				check.radiusError =
-					std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+				check.radiusError = std::isnan(error) ? kInfinity : error;
 		}
 		const double size = norm[0] * norm[1] * norm[2], det = determinant(p[0], p[1], p[2]);
 		double cosines = size;

@@ -106,7 +106,7 @@ MetricCheck checkMetric(
 		if (!(difference <= explained)) // NaN counts
 			check.lengthError = std::isfinite(difference)
 									? std::max(check.lengthError, difference - explained)
-									: std::numeric_limits<double>::infinity();
+									: kInfinity;
 	}
 
 	const VertexArray<char> boundary = t.boundaryVertices();
@@ -135,8 +135,7 @@ MetricCheck checkMetric(
 			continue;
 		const double error = std::abs(curvature[v] - target[v]) - rounding[v];
 		if (!(error <= check.curvatureError)) {
-			check.curvatureError =
-				std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+			check.curvatureError = std::isnan(error) ? kInfinity : error;
 			check.vertex = v;
 		}
 	}
@@ -154,8 +153,8 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 	const MetricCheck check =
 		checkMetric(flow.target.background, metric, flow.u, metric.lengths(), target);
 	// On the boundary of a double the residual counts twice.
-	const bool exact = check.lengthError <= kCheckedLength &&
-					   check.curvatureError <= 2.0 * flow.residual + kCheckedCurvature;
+	const bool exact =
+		check.lengthError <= kTiny && check.curvatureError <= 2.0 * flow.residual + kMaxFloor;
 	if (exact && check.broken > 0)
 		throw NotConverged(NotConverged::FlatTriangles, static_cast<std::size_t>(check.broken));
 	if (!exact)

@@ -271,7 +271,7 @@ public:
 					}
 				}
 				else if (length + link.length < next.length) {
-					if (next.length == kFar)
+					if (next.length == kInfinity)
 						touched.push_back(link.vertex);
 					next.length = length + link.length;
 					next.from = {v, link.side, link.parity, link.length};
@@ -302,7 +302,7 @@ public:
 private:
 	struct Place
 	{
-		double length = kFar; // from the root
+		double length = kInfinity; // from the root
 		Link from;
 		char parity = 0; // of the way from the root
 		bool done = false;
@@ -445,7 +445,7 @@ void cutOneSided(
 		const int component = componentOf(sides[first]);
 		for (last = first; last < sides.size() && componentOf(sides[last]) == component;)
 			++last;
-		EdgeSet loop{{}, kFar};
+		EdgeSet loop{{}, kInfinity};
 		std::vector<int> roots;
 		for (std::size_t i = first; i < last; ++i)
 			if (const int v = triangles[sides[i]]; roots.empty() || price[v] == 0.0)

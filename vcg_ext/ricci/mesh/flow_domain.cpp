@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_domain.h"
 
+#include "../base/numbers.h"
 #include "../base/points.h"
 #include "../base/tolerances.h"
 
@@ -89,8 +90,7 @@ loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Hole
 {
 	const Triangulation& t = surface.triangulation;
 	const bool areShort = holes == Holes::ShortCapped;
-	const double maxLength =
-		areShort ? maxShortLength(surface) : std::numeric_limits<double>::infinity();
+	const double maxLength = areShort ? maxShortLength(surface) : kInfinity;
 	std::vector<Halfedge> loops;
 	Halfedge longest;
 	double longestLength = -1.0;

@@ -375,8 +375,7 @@ private:
 			const auto at = [&](int v) { return m_input.positions[positionOf(v)]; };
 			const Point3 a = at(t[1]) - at(t[0]), b = at(t[2]) - at(t[0]), normal = cross(a, b);
 			const double longest = std::max({length(a), length(b), length(b - a)});
-			if (!(std::hypot(normal[0], normal[1], normal[2]) >
-				  kMinComponentArea * longest * longest))
+			if (!(std::hypot(normal[0], normal[1], normal[2]) > kCancelled * longest * longest))
 				continue;
 			int farthest = t[0];
 			for (const Triangle& other : m_input.triangles)
@@ -405,7 +404,7 @@ private:
 		std::size_t tiny = 0;
 		Array<char> isFlat(area.size(), 0);
 		for (const int c : area.indices()) {
-			isFlat[c] = !(area[c] > kMinComponentArea * longest[c] * longest[c]);
+			isFlat[c] = !(area[c] > kCancelled * longest[c] * longest[c]);
 			tiny += longest[c] > 0.0 && longest[c] < kMinComponentSize;
 		}
 		requireNone(tiny, InvalidMesh::TooSmall);

@@ -3,6 +3,7 @@
 #ifndef RICCI_AREA_H
 #define RICCI_AREA_H
 
+#include "../base/numbers.h"
 #include "../mesh/elements.h"
 #include "../mesh/triangulation.h"
 
@@ -71,9 +72,7 @@ inline TriangleApex triangleApex(double base, double left, double right)
 /// \param lengths of the edges
 /// \param maxCotangent bound of each cotangent, of either sign; finite where triangles may be degenerate
 EdgeArray<double> cotangentWeights(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	double maxCotangent = std::numeric_limits<double>::infinity());
+	const Triangulation& t, const EdgeArray<double>& lengths, double maxCotangent = kInfinity);
 
 /// [vertex] A third of the area of its triangles.
 VertexVector vertexAreas(const Triangulation& t, const EdgeArray<double>& lengths);

@@ -2,6 +2,7 @@
 #include "circle_packing.h"
 
 #include "../base/graphs.h"
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "area.h"
@@ -80,7 +81,7 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 		sum += (plus - minus) / (2 * apex.height);
 		magnitude += (plus + std::abs(minus)) / (2 * apex.height);
 	}
-	return sum >= -kMetricTie * magnitude;
+	return sum >= -kManyRoundings * magnitude;
 }
 
 /// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
@@ -159,7 +160,7 @@ VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& len
 		std::sort(side.begin(), side.end(), isShorter);
 		const double excess = (length(0) - length(2)) + length(1);
 		const double needed = kNeedleExcess * length(2);
-		if (length(0) * kNeedleRatio <= length(2)) {
+		if (length(0) <= kMinIntrinsicHeight * length(2)) {
 			// Both ends of the short side. One scale for a triangle without size: that of its place.
 			raise(t.apex(side[2]), excess, needed);
 			raise(t.apex(side[1]), (length(2) - length(1)) + length(0), needed);
@@ -184,7 +185,7 @@ VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& len
 
 VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>& lengths)
 {
-	VertexArray<double> radii(t.vertexCount(), std::numeric_limits<double>::infinity());
+	VertexArray<double> radii(t.vertexCount(), kInfinity);
 	for (const Face f : t.faces())
 		for (const Halfedge h : t.halfedges(f)) {
 			const double left = lengths[h.edge()];
@@ -199,7 +200,7 @@ VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>
 EdgeArray<double> inversiveDistancesLessOne(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
 {
-	return distancesLessOne(t, lengths, radii, 0.0, std::numeric_limits<double>::infinity());
+	return distancesLessOne(t, lengths, radii, 0.0, kInfinity);
 }
 
 EdgeArray<double> thurstonDistancesLessOne(

@@ -67,7 +67,7 @@ bool isWeightedDelaunay(
 							(j * (q.lj + q.ij * q.il) + i * (q.il + q.ij * q.lj)) / rootDl;
 	const double negative = k * q.ij2Less1 / rootDk + l * q.ij2Less1 / rootDl;
 	// Written so that values out of range count as Delaunay and end the flips.
-	return !(positive - negative < -kConformalTie * (positive + negative));
+	return !(positive - negative < -kFewRoundings * (positive + negative));
 }
 
 void rewind(FlipJournal& journal, Triangulation& t, EdgeArray<double>& delta)

@@ -17,7 +17,7 @@ namespace ricci {
 /// Flips end by themselves in exact arithmetic: each one raises the function whose creases the edges
 /// are, so that no triangulation comes twice. But their number has no bound by that of the edges: a
 /// strip of triangles wound k times round a torus of one vertex takes k flips, and k may be about
-/// kNeedleRatio. More than this many are rounding's, which goes round in circles.
+/// 1 / kMinIntrinsicHeight. More than this many are rounding's, which goes round in circles.
 inline std::int64_t maxFlips(int edgeCount)
 {
 	constexpr std::int64_t kWindings = 10000000, kPerEdge = 1000;

@@ -75,7 +75,7 @@ double balanceByMoebius(std::vector<Point3>& points, const std::vector<double>& 
 		}
 		const bool better = mean.norm() < offset;
 		offset = mean.norm();
-		if (offset < kBalanced || (step > 0 && !better && offset < kStalledBalance))
+		if (offset < kManyRoundings || (step > 0 && !better && offset < kStalledBalance))
 			break;
 		hessian.diagonal().array() += 1e-12;
 		Vector d = hessian.ldlt().solve(mean);
@@ -87,7 +87,7 @@ double balanceByMoebius(std::vector<Point3>& points, const std::vector<double>& 
 		for (int halving = 0; halving < 40 && !moved; ++halving) {
 			boost(points, weights, d, trial, energy);
 			const double slope = -d.dot(mean) * total; // of the energy along d
-			moved = energy <= kArmijo * slope || std::abs(slope) < kNoSlope * total;
+			moved = energy <= kArmijo * slope || std::abs(slope) < kManyRoundings * total;
 			if (!moved)
 				d *= 0.5;
 		}

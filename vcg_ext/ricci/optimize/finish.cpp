@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finish.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../flow/target.h"
@@ -16,10 +17,6 @@ namespace ricci {
 
 namespace {
 
-/// Steps on all triangles that a stage of a repair may spend. Few maps that are not repaired by then are
-/// repaired by more, and what is left can be cut off.
-constexpr std::int64_t kMaxSteps = 50;
-
 /// What a patch costs in the objective (MapCost) at the scale at which the whole map costs least, where the
 /// triangles of it that are not valid are cut off.
 class CostWithCuts
@@ -30,8 +27,7 @@ public:
 	{
 		double forth = 0.0, back = 0.0;
 		for (const int f : flat.points.indices())
-			if (const auto [ahead, behind] = flat.stretch(f);
-				behind < std::numeric_limits<double>::infinity()) {
+			if (const auto [ahead, behind] = flat.stretch(f); behind < kInfinity) {
 				forth += ahead;
 				back += behind;
 			}
@@ -77,7 +73,7 @@ FinishCounts finishInPlane(
 		const double height = kMinHeight * flat.box().extent();
 		const Validity validity{height, kWantedHeights * height};
 		const CostOfPatch cost = mayCut ? CostOfPatch(CostWithCuts(flat, validity)) : nullptr;
-		WorkLimit limit(flat.points.size(), kMaxSteps);
+		WorkLimit limit(flat.points.size(), WorkLimit::kFew);
 		const Repair result = repairInStages(
 			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, !freeBoundary}, limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};

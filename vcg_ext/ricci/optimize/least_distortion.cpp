@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../numerics/iteration.h"
 #include "mean_distortion.h"
@@ -15,9 +16,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// So many iterations at most: a few are usual, fans of needles would take thousands. The direction leads
-/// down after any number of them.
-constexpr int kMaxIterations = 100;
+/// So many iterations for a direction at most: a few are usual, fans of needles would take thousands, and it leads
+/// down after any number of them. Steps at most: a few are enough for most maps, CAD with long triangles takes a hundred.
+constexpr int kMaxIterations = 100, kMaxSteps = 100;
 
 /// Re(conj(a) b).
 double realProduct(Complex a, Complex b)
@@ -133,12 +134,8 @@ void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Steps at most: a few are enough for most maps, CAD with long triangles takes a hundred. They end when two
-/// in a row gain less than this change of K in all triangles is worth: it is not seen in the fourth decimal of
-/// a mean.
-constexpr int kMaxSteps = 100;
+/// The steps end when two in a row gain less than this change of K in all triangles is worth: it is not seen in the
+/// fourth decimal of a mean.
 constexpr double kSeen = 2.5e-5;
 
 /// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.

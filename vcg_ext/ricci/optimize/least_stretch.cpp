@@ -4,6 +4,7 @@
 #include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../flow/target.h"
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
 
@@ -18,8 +19,6 @@ constexpr int kMaxSteps = 40;
 constexpr double kMinGain = 1e-3;
 
 constexpr double kMinStep = 1e-8;
-
-constexpr double kIsometry = 4.0;
 
 /// Gives the map the area of the surface.
 void scaleToSurface(FlatMesh& flat)
@@ -54,14 +53,15 @@ public:
 	{
 		Descent result{0, m_value, m_value};
 		double gain = m_value;
-		while (result.steps < kMaxSteps && gain > kMinGain * (m_value - kIsometry)) {
+		while (result.steps < kMaxSteps && gain > kMinGain * (m_value - MapCost().energy)) {
 			gain = step();
 			if (!(gain > 0.0))
 				break;
 			++result.steps;
 			result.after = m_value;
 		}
-		result.endedEarly = result.steps == kMaxSteps && gain > kMinGain * (m_value - kIsometry);
+		result.endedEarly =
+			result.steps == kMaxSteps && gain > kMinGain * (m_value - MapCost().energy);
 		return result;
 	}
 

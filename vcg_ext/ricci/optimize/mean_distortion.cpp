@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mean_distortion.h"
 
+#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/points.h"
 #include "../base/tolerances.h"
@@ -33,8 +34,6 @@ constexpr double kMaxBend = 4.0;
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTiny = std::numeric_limits<double>::min();
 
 /// Products by parts: those of std::complex look for infinities behind every result.
 Complex product(Complex a, Complex b)
@@ -260,14 +259,16 @@ void MeanDistortion::evaluate(int f, const Eigen::VectorXcd& position)
 		const double square = std::norm(s.first * e1 + s.second * e2) +
 							  std::norm(std::conj(s.first) * e1 + std::conj(s.second) * e2);
 		m_energy[f] = 0.0;
-		m_stiffness[f] = kUncountedStiffness / (size() * (square + kTiny));
+		m_stiffness[f] =
+			kUncountedStiffness / (size() * (square + std::numeric_limits<double>::min()));
 		m_pull[f] = {};
 		return;
 	}
 	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
 	m_energy[f] = kInfinity;
 	// What is far from 0 has the right sign, see orientation().
-	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) + kTiny) &&
+	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) +
+							 std::numeric_limits<double>::min()) &&
 		orientation(
 			asPoint(origin), asPoint(position[corners[1]]), asPoint(position[corners[2]])) != 1)
 		return;

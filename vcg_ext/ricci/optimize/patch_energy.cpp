@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patch_energy.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ private:
 	{
 		const double s = a + b, d = a - b, over = 1.0 / d, square = over * over;
 		if (!(d > 0.0))
-			return {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0, 0.0};
+			return {kInfinity, 0.0, 0.0, 0.0, 0.0};
 		return {
 			2.0 * s * (1.0 + square),
 			2.0 * (1.0 + square),
@@ -149,7 +150,7 @@ PatchEnergy::PatchEnergy(
 
 double PatchEnergy::minDeterminant(const Eigen::VectorXd& x) const
 {
-	double smallest = std::numeric_limits<double>::infinity();
+	double smallest = kInfinity;
 	for (const Element& element : m_elements) {
 		const auto [z, w] = mapAt(element, x);
 		smallest = std::min(smallest, std::norm(z) - std::norm(w));
@@ -312,7 +313,7 @@ double strain(const RestShape& shape, const Triangle2& plane)
 	const Derivatives d(shape, plane);
 	const double a = std::norm(d.z), b = std::norm(d.w);
 	if (!(a > b))
-		return std::numeric_limits<double>::infinity();
+		return kInfinity;
 	return Density::untangling(a, b, 0.0).value / (2.0 + 2.0 * kAreaWeight);
 }
 

@@ -15,9 +15,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Rounding of a coordinate, relative to the extent.
-constexpr double kCoordinateRounding = 8 * kUnitRoundoff;
-
 /// Copies whose turn is less certain do not move.
 constexpr double kMaxTurnError = 1e-6;
 
@@ -73,7 +70,7 @@ public:
 	CopyGroups(const FlatMesh& flat, const BoundaryRule& boundaryMoves) :
 			m_flat(flat), m_points(withBoundary(flat, boundaryMoves))
 	{
-		const double rounding = kCoordinateRounding * flat.box().extent();
+		const double rounding = kDiskRounding * flat.box().extent();
 		forBorders(flat, [&](Corner side) {
 			if (flat.across[side] > side)
 				joinSides(side, rounding);

@@ -119,9 +119,6 @@ makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<
 
 namespace {
 
-/// Share of the work on the overlay that is done after its layout.
-constexpr double kLaidOut = 0.85;
-
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
 opened(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)

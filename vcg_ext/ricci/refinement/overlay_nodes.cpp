@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "overlay_nodes.h"
 
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../metric/geometry.h"
 
@@ -229,18 +230,18 @@ private:
 /// Crossings of both families on start edge ij in order, by their shares of it.
 void merge(Edge e, double gi, double gj, const EdgeCrossings& crossings, EdgeNodes& nodes)
 {
-	constexpr double kNone = std::numeric_limits<double>::infinity();
 	nodes.clear();
 	int a = crossings.inputOn.first(e), b = crossings.endOn.first(e);
 	const int lastA = crossings.inputOn.last(e), lastB = crossings.endOn.last(e);
 	while (a < lastA || b < lastB) {
-		const double ta = a < lastA ? crossings.inputCrossings[a].onStart : kNone;
-		const double tb =
-			b < lastB ? keepInside(crossings.endCrossings[b].onStart.over(gi, gj).affine()) : kNone;
+		const double ta = a < lastA ? crossings.inputCrossings[a].onStart : kInfinity;
+		const double tb = b < lastB
+							  ? keepInside(crossings.endCrossings[b].onStart.over(gi, gj).affine())
+							  : kInfinity;
 		NodeOnEdge node;
 		// Their order is known, their shares are rounded.
 		node.share = std::max(std::min(ta, tb), nodes.empty() ? 0.0 : nodes.back().share);
-		const bool takeA = ta <= tb + kMergeGap, takeB = tb <= ta + kMergeGap;
+		const bool takeA = ta <= tb + kCancelled, takeB = tb <= ta + kCancelled;
 		if (takeA)
 			node.input = a++;
 		if (takeB)

@@ -2,6 +2,7 @@
 #include "overlay_pieces.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../error.h"
 #include "chord_arrangement.h"
@@ -19,9 +20,6 @@ namespace {
 
 /// Triangles and sides of pieces in them between two checkpoints.
 constexpr int kWorkBetweenCalls = 1 << 14;
-
-/// Share of the work until the pieces are linked.
-constexpr double kDivided = 0.5;
 
 constexpr const char* kDividing = "Overlay of the two triangulations";
 
@@ -467,12 +465,12 @@ triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& sp
 	if (n == 3)
 		return {{0, 1, 2}};
 	// best[i n + j]: lowest quality in the best triangulation of corners i .. j; apex: of side ij there.
-	std::vector<double> best(n * n, std::numeric_limits<double>::infinity());
+	std::vector<double> best(n * n, kInfinity);
 	std::vector<std::size_t> apex(n * n, 0);
 	for (std::size_t span = 2; span < n; ++span)
 		for (std::size_t i = 0; i + span < n; ++i) {
 			const std::size_t j = i + span;
-			best[i * n + j] = -std::numeric_limits<double>::infinity();
+			best[i * n + j] = -kInfinity;
 			for (std::size_t k = i + 1; k < j; ++k) {
 				const double own =
 					quality({&plane[i], &plane[k], &plane[j]}, {&space[i], &space[k], &space[j]});

@@ -43,7 +43,8 @@ namespace ricci {
 
 inline double keepInside(double share)
 {
-	return std::min(std::max(std::isfinite(share) ? share : 0.5, kEndGap), 1.0 - kEndGap);
+	return std::min(
+		std::max(std::isfinite(share) ? share : 0.5, kManyRoundings), 1.0 - kManyRoundings);
 }
 
 inline double mix(double a, double b, double t)
