@@ -34,7 +34,7 @@ void checkOptions(const HyperbolicOptions& options);
 /// the result is in the numbers of the opened mesh.
 ///
 /// Everywhere in this library the paper, with its sections and equations, is [Yang et al. 2009].
-/// README.md lists this and all other sources.
+/// REFERENCES.md lists this and all other sources.
 /// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, SolverFailed, TooLarge,
 /// Stopped; where the mesh has several components, with the failed one named
 Parametrization

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder base: arrays by index, points of the plane, graphs, threads, cancelling, errors. Nothing that knows a
+// mesh, and no matrix.
 #ifndef RICCI_INDEXED_H
 #define RICCI_INDEXED_H
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder cones: which curvature each vertex is to have, presets, placed cones, quarter turns. It asks for
+// flows, and runs none.
 #ifndef RICCI_TARGET_CURVATURE_H
 #define RICCI_TARGET_CURVATURE_H
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder cut: edges along which a surface opens to a disk, short ones. Seams that a caller chooses, and
+// creases, are in mesh.
 #ifndef RICCI_CUT_GRAPH_H
 #define RICCI_CUT_GRAPH_H
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder flow: from a start and a target to a metric, by Newton's method. Why it is this target is decided in
+// cones.
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 

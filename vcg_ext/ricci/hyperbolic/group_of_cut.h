@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder hyperbolic: what a map to the Poincaré disk alone needs, its target, group, polygon, and disks in
+// floats. The geometry of its triangles is in metric, their layout in layout.
 #ifndef RICCI_GROUP_OF_CUT_H
 #define RICCI_GROUP_OF_CUT_H
 

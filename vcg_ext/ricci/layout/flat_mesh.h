@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder layout: triangles unfolded into the plane or the disk, and FlatMesh, what a map is from here on. No
+// point is moved for quality.
 #ifndef RICCI_FLAT_MESH_H
 #define RICCI_FLAT_MESH_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder measure: numbers of a finished map, and its checks by other formulas. It repairs nothing.
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder mesh: triangles and half-edges, opening at non-manifold edges and chosen seams, holes, creases, normal
+// coordinates. No curvature, and no place in the plane.
 #ifndef RICCI_COMPONENT_H
 #define RICCI_COMPONENT_H
 

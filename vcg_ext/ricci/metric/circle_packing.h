@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder metric: circles, inversive distances, Delaunay and conformal flips, areas, in both geometries. No
+// target.
 #ifndef RICCI_CIRCLE_PACKING_H
 #define RICCI_CIRCLE_PACKING_H
 

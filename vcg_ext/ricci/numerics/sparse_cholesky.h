@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder numerics: sparse Cholesky, minimum cut, aggregation, iterations, doubles of doubles, isometries of the
+// disk. Nothing that knows a mesh.
 #ifndef RICCI_SPARSE_CHOLESKY_H
 #define RICCI_SPARSE_CHOLESKY_H
 

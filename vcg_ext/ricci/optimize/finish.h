@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder optimize: moves points of a flat mesh, to repair, for least distortion, for least stretch. It knows no
+// chart.
 #ifndef RICCI_FINISH_H
 #define RICCI_FINISH_H
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder refinement: the common subdivision of the mesh and of the start and the end of the flow. Maps that
+// keep the mesh never come here.
 #ifndef RICCI_COMMON_REFINEMENT_H
 #define RICCI_COMMON_REFINEMENT_H
 

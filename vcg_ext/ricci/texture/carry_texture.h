@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder texture: draws an old picture anew for other coordinates. It knows flat meshes and pictures, and no
+// flow.
 // A picture that old texture coordinates show, drawn anew for other ones.
 #ifndef RICCI_CARRY_TEXTURE_H
 #define RICCI_CARRY_TEXTURE_H
