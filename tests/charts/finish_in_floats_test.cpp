@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace ricci::testing {
@@ -35,11 +36,16 @@ int flippedInFloats(const Parametrization& map)
 
 void finish(Parametrization& map, const std::function<void()>& packAgain = nullptr)
 {
-	FloatFinish finish;
-	finish.measure = [] {};
-	finish.packAgain = packAgain ? packAgain : [] {};
-	finish.mayCut = static_cast<bool>(packAgain);
-	finishInFloats(finish, map);
+	FloatRules rules;
+	rules.mayCut = static_cast<bool>(packAgain);
+	FloatRepair repair;
+	for (int packings = 1; packings == 1 || repair.needsPacking; ++packings) {
+		rules.mayGrow = packings < 4;
+		repair = repairInFloats(rules, map);
+		map.report.finishMoved += repair.moved;
+		if (repair.needsPacking && packAgain)
+			packAgain();
+	}
 }
 
 TEST(FinishInFloats, MovesPointsNearTurnedTrianglesOnly)

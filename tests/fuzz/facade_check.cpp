@@ -96,7 +96,7 @@ struct Reading
 	std::vector<char> isDegenerate; // [VCG face]
 
 	template<class Mesh>
-	Reading(const Mesh& m, const std::vector<std::array<char, 3>>& seams, OneSidedCut cut) :
+	Reading(const Mesh& m, const SideMarks& seams, OneSidedCut cut) :
 			wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
 	{
 		mesh = fromVcg(m);
@@ -430,9 +430,9 @@ defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& r
 	return {};
 }
 
-std::vector<std::array<char, 3>> seamsOf(const HostileMesh& hostile, std::size_t faces)
+SideMarks seamsOf(const HostileMesh& hostile, std::size_t faces)
 {
-	std::vector<std::array<char, 3>> seams;
+	SideMarks seams;
 	if (hostile.seamEvery == 0)
 		return seams;
 	Random random(static_cast<std::uint64_t>(hostile.seamSeed));

@@ -183,8 +183,7 @@ TEST(OpenedMesh, WhatIsLeftOutTakesNothingAlong)
 	EXPECT_EQ(o.face, (std::vector<int>{1, 5}));
 	EXPECT_EQ(o.degenerate, (std::vector<int>{0, 2, 3, 4}));
 	EXPECT_EQ(o.mesh.absent, 1u);
-	EXPECT_EQ(
-		o.mesh.diagonal, (std::vector<std::array<char, 3>>{mesh.diagonal[1], mesh.diagonal[5]}));
+	EXPECT_EQ(o.mesh.diagonal, (SideMarks{mesh.diagonal[1], mesh.diagonal[5]}));
 }
 
 /// The projective plane of six vertices, all of which are neighbours: half of an icosahedron, its

@@ -27,10 +27,8 @@ inline Options unscaled(OutputTriangulation output = OutputTriangulation::KeepMe
 	return params;
 }
 
-inline Parametrization compute(
-	const SurfaceMesh& mesh,
-	const Options& params,
-	const std::vector<std::array<char, 3>>& seams = {})
+inline Parametrization
+compute(const SurfaceMesh& mesh, const Options& params, const SideMarks& seams = {})
 {
 	DoubleMesh m;
 	toVcg(mesh, m);

@@ -23,6 +23,9 @@ namespace ricci {
 
 namespace {
 
+/// Charts are packed so many times in all.
+constexpr int kMaxPackings = 4;
+
 /// Between charts that lie beside a disk: two pixels of a texture of a thousand.
 constexpr double kMarginBeside = 0.002;
 
@@ -195,14 +198,24 @@ void pack(const Options& options, WholeMap& whole)
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
-	FloatFinish finish;
-	finish.forText = options.output == OutputTriangulation::KeepMesh;
-	finish.measure = [&] { measure(whole); };
-	finish.packAgain = [&] { packCharts(map, options, turns); };
-	finish.mayCut = mayCutCharts(options);
-	finish.keepsBoundary = isOneChart(options);
-	if (isFinished(options))
-		finishInFloats(finish, map);
+	if (!isFinished(options))
+		return;
+	FloatRules rules;
+	rules.keepsMesh = options.output == OutputTriangulation::KeepMesh;
+	rules.mayCut = mayCutCharts(options);
+	rules.keepsBoundary = isOneChart(options);
+	FloatRepair repair;
+	bool isChanged = false;
+	for (int packings = 1; packings == 1 || repair.needsPacking; ++packings) {
+		rules.mayGrow = packings < kMaxPackings;
+		repair = repairInFloats(rules, map);
+		map.report.finishMoved += repair.moved;
+		isChanged = isChanged || repair.moved > 0 || repair.needsPacking;
+		if (repair.needsPacking)
+			packCharts(map, options, turns);
+	}
+	if (isChanged)
+		measure(whole);
 }
 
 /// Counts what is wrong with the coordinates as they are stored.

@@ -21,9 +21,6 @@ namespace ricci {
 
 namespace {
 
-/// Charts are packed so many times in all.
-constexpr int kMaxPackings = 4;
-
 /// A refinement of which more pieces are lost is not cut into so many charts.
 constexpr std::size_t kMostLost = 1000;
 
@@ -33,7 +30,7 @@ struct Wanted
 	Validity validity;
 	Validity inText; ///< also for coordinates with six decimals, in the unit square
 
-	Wanted(const FlatMesh& mesh, bool forText)
+	Wanted(const FlatMesh& mesh, bool keepsMesh)
 	{
 		double largest = 0.0;
 		for (const Point2& p : mesh.place)
@@ -42,7 +39,7 @@ struct Wanted
 		const double height = kMinFloatSteps * floatStep(largest);
 		validity = {height, kWantedHeights * height, true};
 		inText = validity;
-		if (forText && largest > 0.5 && largest <= 1.0)
+		if (keepsMesh && largest > 0.5 && largest <= 1.0)
 			inText = {height, kWantedHeights * kTextStep, true, kTextStep};
 	}
 };
@@ -130,40 +127,35 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 
 } // namespace
 
-void finishInFloats(const FloatFinish& finish, Parametrization& map)
+FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 {
-	for (int packings = 1;; ++packings) {
-		const bool isLast = packings == kMaxPackings;
-		const Box2 limits = boxOfCharts(map);
-		const Wanted wanted(map.mesh, finish.forText);
-		const OverlapCount overlaps(
+	const Box2 limits = boxOfCharts(map);
+	const Wanted wanted(map.mesh, rules.keepsMesh);
+	const OverlapCount overlaps(
+		map.mesh,
+		wanted.validity.height / kMinFloatSteps,
+		rules.mayGrow ? std::nullopt : std::optional<Box2>(limits));
+	WorkLimit limit(map.mesh.size());
+	Repair result;
+	// Where there is no room for text, floats have to do.
+	for (const Validity& validity : {wanted.inText, wanted.validity})
+		result.add(repairInStages(
 			map.mesh,
-			wanted.validity.height / kMinFloatSteps,
-			isLast ? std::optional<Box2>(limits) : std::nullopt);
-		WorkLimit limit(map.mesh.size());
-		Repair result;
-		// Where there is no room for text, floats have to do.
-		for (const Validity& validity : {wanted.inText, wanted.validity})
-			result.add(repairInStages(
-				map.mesh,
-				[](int) { return false; },
-				{RestShapes::OfDrawing, validity, overlaps, finish.keepsBoundary},
-				limit));
-		map.report.finishMoved += result.movedCount();
-		if (result.movedCount() > 0)
-			finish.measure();
-		const bool cuts = result.left > 0 && finish.mayCut;
-		if (isLast || (!cuts && (result.movedCount() == 0 || isIn(map.mesh.box(), limits))))
-			return;
-		if (cuts) {
-			const std::vector<int> lost = badTriangles(map.mesh, wanted.validity);
-			if (!finish.forText && lost.size() > kMostLost)
-				throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
-			setApart(lost, wanted.inText, map);
-		}
-		finish.packAgain();
-		finish.measure();
+			[](int) { return false; },
+			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary},
+			limit));
+	FloatRepair done{result.movedCount()};
+	if (!rules.mayGrow)
+		return done;
+	const bool cuts = result.left > 0 && rules.mayCut;
+	done.needsPacking = cuts || (done.moved > 0 && !isIn(map.mesh.box(), limits));
+	if (cuts) {
+		const std::vector<int> lost = badTriangles(map.mesh, wanted.validity);
+		if (!rules.keepsMesh && lost.size() > kMostLost)
+			throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
+		setApart(lost, wanted.inText, map);
 	}
+	return done;
 }
 
 } // namespace ricci

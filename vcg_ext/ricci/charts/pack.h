@@ -24,7 +24,7 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
 /// normalizeUV the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
 /// Without it the charts keep their scale, and a single chart keeps its place. A chart with a side that
-/// may be too short for triangles that have to be given a height (finishInFloats()) gets a wider box.
+/// may be too short for triangles that have to be given a height (repairInFloats()) gets a wider box.
 /// Fills Chart::box.
 ///
 /// With \p normalizeUV charts may be turned, too, and the largest placed by their outlines, with the

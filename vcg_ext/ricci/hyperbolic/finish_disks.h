@@ -37,7 +37,7 @@ struct DiskFinish
 	bool isRefined = false; ///< the triangles keep their shapes
 };
 
-/// What finishInFloats() does in the plane, for charts in the Poincaré disk before placeDisks(): mends the triangles that are flipped, or that
+/// What repairInFloats() does in the plane, for charts in the Poincaré disk before placeDisks(): mends the triangles that are flipped, or that
 /// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides
 /// (repairInCover()). Disks that overlap themselves as straight triangles are divided (separateDisks()); where
 /// triangles are left all the same, they are divided first (divideDisks()), if that leaves fewer. A map that

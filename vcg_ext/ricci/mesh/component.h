@@ -21,10 +21,9 @@ struct Component
 	FaceArray<char> reversed; ///< 1 if the order of the input was reversed
 	VertexArray<Point3> positions;
 	std::vector<Triangle> triangles; ///< [face] numbers of the component's vertices, coherent order
-	std::vector<std::array<char, 3>>
-		diagonal;                          ///< of these triangles, see SurfaceMesh; may be empty
-	std::vector<std::array<char, 3>> hole; ///< of these triangles, see OpenedMesh; may be empty
-	bool hasSeam = false;                  ///< see OpenedMesh
+	SideMarks diagonal;              ///< of these triangles, see SurfaceMesh; may be empty
+	SideMarks hole;                  ///< of these triangles, see OpenedMesh; may be empty
+	bool hasSeam = false;            ///< see OpenedMesh
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }

@@ -38,7 +38,7 @@ embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& tria
 namespace {
 
 /// The edges with a marked side; empty without marks.
-EdgeArray<char> edgesOf(const Triangulation& t, const std::vector<std::array<char, 3>>& sides)
+EdgeArray<char> edgesOf(const Triangulation& t, const SideMarks& sides)
 {
 	EdgeArray<char> edges;
 	if (sides.empty())

@@ -31,7 +31,7 @@ struct OpenedMesh
 
 	/// [face of mesh][k] 1 where the side from corner k lies on a hole: a boundary loop other than the
 	/// longest of its component before seams were opened. Empty where none were.
-	std::vector<std::array<char, 3>> hole;
+	SideMarks hole;
 	/// [component] 1 where a seam that was opened is on the boundary. Empty where none were.
 	std::vector<char> hasSeam;
 

@@ -41,7 +41,7 @@ struct Creases
 {
 	/// [face][k] 1 where the side from corner k is one, on one of the two sides of an edge, as in
 	/// SurfaceMesh::seam.
-	std::vector<std::array<char, 3>> sides;
+	SideMarks sides;
 	int edges = 0;
 	/// What is left, away from creases and boundary, of the sum of |K| over all vertices inside: 0 to 1. 0
 	/// for a surface that unfolds between its creases.

@@ -14,19 +14,18 @@ namespace ricci {
 /// Numbers of the three corners of a triangle.
 using Triangle = std::array<int, 3>;
 
+/// [face][k] 1 where the side from corner k is marked. May be empty, else one entry for each triangle.
+using SideMarks = std::vector<std::array<char, 3>>;
+
 /// A triangle soup with shared vertices, as a caller hands it over. The flow itself sees lengths
 /// only; positions are read for the corners of a rectangle, edge swaps, areas and distortion.
 struct SurfaceMesh
 {
 	std::vector<Point3> positions;
 	std::vector<Triangle> triangles; ///< indices into positions
-	/// [face][k] 1 where the side from corner k is a diagonal of a polygon that was cut into triangles;
-	/// may be empty, else one entry for each triangle.
-	std::vector<std::array<char, 3>> diagonal = {};
-	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
-	/// [face][k] 1 where the caller wants a seam along the side from corner k; one face of an edge is
-	/// enough. May be empty, else one entry for each triangle.
-	std::vector<std::array<char, 3>> seam = {};
+	SideMarks diagonal = {};         ///< sides inside polygons that were cut into triangles
+	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
+	SideMarks seam = {}; ///< where the caller wants seams; one face of an edge is enough
 };
 
 /// A point of a surface as an affine combination of its vertices. The weights of vertices that are

@@ -51,7 +51,7 @@ public:
 
 	/// [face][k] 1 where the side from corner k is to be a seam, see ricci::SurfaceMesh::seam and
 	/// ricci_seams.h. Faces behind its end have none but those that the flow finds.
-	typedef std::vector<std::array<char, 3>> SideMarks;
+	typedef ricci::SideMarks SideMarks;
 
 	/// The charts are packed by BoxesSideBySide, whatever placeBoxes is.
 	typedef ricci::Options Params;
