@@ -64,6 +64,110 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
+/// Maps components in threads. The thread that runs it appends them in their order, as soon as they are done.
+class ComponentRuns
+{
+public:
+	ComponentRuns(
+		const OpenedMesh& opened,
+		const std::vector<Component>& components,
+		const std::function<Parametrization(const Component&)>& flatten,
+		Parametrization& whole) :
+			m_opened(opened),
+			m_components(components), m_flatten(flatten), m_whole(whole),
+			m_isSilent(silentComponents(components)), m_faces(faceCount(components)),
+			m_mapped(components.size()), m_firstFailed(static_cast<int>(components.size()))
+	{
+	}
+
+	void run()
+	{
+		const auto count = static_cast<int>(m_components.size());
+		const bool hasRoom = hasRoomFor(estimatedMemory(m_faces, m_faces, true));
+		tasksInParallel(
+			count, hasRoom ? threadsFor(static_cast<std::int64_t>(m_faces)) : 1, [this](int i) {
+				mapOne(i);
+			});
+		appendDone();
+		if (m_firstFailed < count)
+			std::rethrow_exception(m_mapped[positionOf(m_firstFailed)].error);
+	}
+
+private:
+	struct Mapped
+	{
+		std::optional<Parametrization> part;
+		std::vector<std::string> lines;
+		std::exception_ptr error;
+		std::atomic<bool> isDone{false};
+	};
+
+	void mapOne(int i)
+	{
+		if (i > m_firstFailed)
+			return;
+		const Component& component = m_components[positionOf(i)];
+		Mapped& own = m_mapped[positionOf(i)];
+		const auto share = [&](std::size_t done) {
+			return kComponentsDone * static_cast<double>(done) / static_cast<double>(m_faces);
+		};
+		const bool isCaller = std::this_thread::get_id() == m_caller;
+		try {
+			const std::size_t before = m_facesDone;
+			Task part(
+				share(before),
+				share(before + component.triangles.size()),
+				m_isSilent[positionOf(i)] != 0);
+			if (!isCaller || i != m_appended)
+				part.keepLines(own.lines);
+			own.part = m_flatten(component);
+		}
+		catch (const Stopped&) {
+			throw; // not the component's fault
+		}
+		catch (Error& error) {
+			nameComponent(m_opened, component, error);
+			own.error = std::current_exception();
+			for (int first = m_firstFailed;
+				 i < first && !m_firstFailed.compare_exchange_weak(first, i);) {
+			}
+		}
+		m_facesDone += component.triangles.size();
+		own.isDone = true;
+		if (isCaller)
+			appendDone();
+	}
+
+	void appendDone()
+	{
+		for (; positionOf(m_appended) < m_mapped.size(); ++m_appended) {
+			Mapped& own = m_mapped[positionOf(m_appended)];
+			if (!own.isDone)
+				return;
+			logLines(own.lines);
+			own.lines.clear();
+			if (own.error)
+				return;
+			if (m_isSilent[positionOf(m_appended)] != 0)
+				own.part->notes.clear();
+			append(m_components[positionOf(m_appended)], std::move(*own.part), m_whole);
+			own.part.reset();
+		}
+	}
+
+	const OpenedMesh& m_opened;
+	const std::vector<Component>& m_components;
+	const std::function<Parametrization(const Component&)>& m_flatten;
+	Parametrization& m_whole;
+	const std::vector<char> m_isSilent;
+	const std::size_t m_faces;
+	const std::thread::id m_caller = std::this_thread::get_id();
+	std::vector<Mapped> m_mapped;
+	int m_appended = 0; // components
+	std::atomic<int> m_firstFailed;
+	std::atomic<std::size_t> m_facesDone{0};
+};
+
 } // namespace
 
 WholeMap
@@ -159,71 +263,7 @@ void appendComponents(
 	const std::function<Parametrization(const Component&)>& flatten,
 	Parametrization& whole)
 {
-	struct Mapped
-	{
-		std::optional<Parametrization> part;
-		std::vector<std::string> lines;
-		std::exception_ptr error;
-		std::atomic<bool> isDone{false};
-	};
-	const auto count = static_cast<int>(components.size());
-	const std::size_t faces = faceCount(components);
-	const std::vector<char> isSilent = silentComponents(components);
-	std::vector<Mapped> mapped(components.size());
-	const auto caller = std::this_thread::get_id();
-	int appended = 0; // components
-	std::atomic<int> firstFailed{count};
-	std::atomic<std::size_t> facesDone{0};
-	const auto appendDone = [&] {
-		for (; appended < count && mapped[positionOf(appended)].isDone; ++appended) {
-			Mapped& own = mapped[positionOf(appended)];
-			logLines(own.lines);
-			own.lines.clear();
-			if (own.error)
-				return;
-			if (isSilent[positionOf(appended)] != 0)
-				own.part->notes.clear();
-			append(components[positionOf(appended)], std::move(*own.part), whole);
-			own.part.reset();
-		}
-	};
-	const auto mapOne = [&](int i) {
-		if (i > firstFailed)
-			return;
-		const Component& component = components[positionOf(i)];
-		Mapped& own = mapped[positionOf(i)];
-		const auto share = [&](std::size_t done) {
-			return kComponentsDone * static_cast<double>(done) / static_cast<double>(faces);
-		};
-		const bool isCaller = std::this_thread::get_id() == caller;
-		try {
-			const std::size_t before = facesDone;
-			Task part(
-				share(before), share(before + component.triangles.size()), isSilent[positionOf(i)]);
-			if (!isCaller || i != appended)
-				part.keepLines(own.lines);
-			own.part = flatten(component);
-		}
-		catch (const Stopped&) {
-			throw; // not the component's fault
-		}
-		catch (Error& error) {
-			nameComponent(opened, component, error);
-			own.error = std::current_exception();
-			for (int first = firstFailed;
-				 i < first && !firstFailed.compare_exchange_weak(first, i);) {
-			}
-		}
-		facesDone += component.triangles.size();
-		own.isDone = true;
-		if (isCaller)
-			appendDone();
-	};
-	const bool hasRoom = hasRoomFor(estimatedMemory(faces, faces, true));
-	tasksInParallel(count, hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1, mapOne);
-	appendDone();
-	if (firstFailed < count)
-		std::rethrow_exception(mapped[positionOf(firstFailed)].error);
+	ComponentRuns(opened, components, flatten, whole).run();
 	if (components.size() > kDescribedComponents)
 		logLine(
 			"The log leaves out the smaller ones of " + std::to_string(components.size()) +

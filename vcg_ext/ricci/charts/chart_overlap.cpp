@@ -317,7 +317,7 @@ Array<char> OverlapSearch::overlapping() const
 /// than such polygons do: the least depth of two convex polygons is that along a side of one of them.
 void OverlapSearch::makeHulls() const
 {
-	int joins = 0;
+	std::size_t joins = 0;
 	using Polygon = std::vector<Point2>;
 	m_hulls = m_tree.valuesOfNodes<Polygon>(
 		[&](int i) {
