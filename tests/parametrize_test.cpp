@@ -89,6 +89,27 @@ TEST(Parametrize, AChartStandsUprightInItsLeastRectangleOrSquare)
 		}
 }
 
+/// On a surface of every kind no triangle turns, and the distortion is less than that of straight triangles alone.
+TEST(Parametrize, TheLeastDistortionIsLessWithoutTurningATriangle)
+{
+	Random random(621);
+	int better = 0;
+	const std::vector<SurfaceMesh> meshes = surfacesOfEveryKind(random);
+	for (const SurfaceMesh& mesh : meshes) {
+		Options options;
+		options.charts = Charts::OfTheFlow;
+		options.target = TargetCurvature::PlacedCones;
+		options.cones.distortion = 1.0;
+		options.finish = Finish::Repair;
+		const Report straight = run(mesh, options).report;
+		options.finish = Finish::LeastDistortion;
+		const Report least = run(mesh, options).report;
+		EXPECT_EQ(least.flippedFaces, 0);
+		better += least.qcVertexMean < straight.qcVertexMean;
+	}
+	EXPECT_EQ(better, static_cast<int>(meshes.size()));
+}
+
 TEST(Parametrize, LeastStretchLetsSeamsGoAndKeepsAreasBetter)
 {
 	Random random(216);
@@ -214,6 +235,16 @@ TEST(Parametrize, QuarterTurnsAcrossSeamsStaySoInTheSquare)
 	}
 	EXPECT_GT(turned, 10);
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-6);
+}
+
+/// One line of edges across a planar ring, which the flow leaves as it is.
+TEST(Parametrize, TheSeamOfARingIsShortest)
+{
+	Options options;
+	options.target = TargetCurvature::Flat;
+	const Report report = run(ring(1, 4, 12, 5), options).report;
+	EXPECT_EQ(report.seamEdges, 5);
+	EXPECT_NEAR(report.seamLength, 3.0, 1e-12);
 }
 
 TEST(Parametrize, ARectangleHasFourStraightSides)

@@ -9,10 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
 #include <cstdint>
-#include <cstdlib>
 
 namespace ricci::testing {
 namespace {
@@ -27,16 +24,6 @@ Repair mend(FlatMesh& flat, const Validity& wanted)
 	WorkLimit limit(flat.points.size());
 	return repairInStages(
 		flat, [](int) { return false; }, {RestShapes::OfSurface, wanted}, limit);
-}
-
-TEST(Repair, LeavesAValidDrawingAlone)
-{
-	FlatMesh flat = square();
-	const Array<Point2> before = flat.place;
-	const Repair result = mend(flat, validity());
-	EXPECT_EQ(result.bad, 0);
-	EXPECT_EQ(result.movedCount(), 0);
-	EXPECT_EQ(flat.place.values(), before.values());
 }
 
 TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
@@ -59,37 +46,6 @@ TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 			EXPECT_EQ(isSame, result.moved[p] == 0) << p;
 		}
 	}
-}
-
-TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
-{
-	FlatMesh flat = square();
-	const int v = vertexAt(3, 3);
-	flat.place[v] = {4.5, 3.2};
-	const Array<Point2> before = flat.place;
-	mend(flat, validity());
-	EXPECT_TRUE(badTriangles(flat, validity()).empty());
-	for (const int p : flat.place.indices()) {
-		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
-		EXPECT_TRUE(!isFar || flat.place[p] == before[p]) << p;
-	}
-}
-
-TEST(Repair, ValidMeansValidInFloatsWhereFloatsAreStored)
-{
-	FlatMesh flat = square();
-	constexpr double kFar = 0x1p20; // where a float's step is an eighth
-	for (const int p : flat.place.indices())
-		flat.place[p] = {flat.place[p][0] + kFar, flat.place[p][1] + kFar};
-	const int v = vertexAt(6, 6);
-	flat.place[v][0] = kFar + 6.97; // rounds to its neighbour's
-	const Validity floats{0.2, 0.3, true};
-	const Validity doubles{0.001, 0.3, false};
-	EXPECT_TRUE(badTriangles(flat, doubles).empty());
-	ASSERT_FALSE(badTriangles(flat, floats).empty());
-	const Repair result = mend(flat, floats);
-	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(flat, floats).empty());
 }
 
 /// Decimal fractions on one line, which as doubles mostly are on none, and next to it.
