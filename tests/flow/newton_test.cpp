@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace ricci::testing {
 namespace {
 
@@ -265,33 +263,6 @@ TEST(NewtonDescent, FindsTheMetricThatExistsFromFarOutsideOfAll)
 				EXPECT_TRUE(solve.from(moved(metric, spread, random)).to(target).result.converged);
 				EXPECT_LT(difference(solve.u, metric), 1e-5);
 			}
-}
-
-/// Circles that touch, I = 1 exactly: such edges cannot flip, and never have to.
-TEST(Newton, TangentCirclesNeverFlip)
-{
-	Random random(609);
-	for (int round = 0; round < 6; ++round) {
-		SCOPED_TRACE(round);
-		const Triangulation torus = glued(bumpyTorus(12, 9, random));
-		CirclePacking packing{torus, {}};
-		for (int e = 0; e < torus.edgeCount(); ++e)
-			packing.delta.push_back(random.index(3) == 0 ? 0.0 : random.real(0.0, 2.0));
-		VertexVector u(torus.vertexCount());
-		for (double& x : u)
-			x = random.real(-1.0, 1.0);
-		FlippingCurvatureMap<Euclidean> map(packing);
-		NewtonSolver solver(map, VertexArray<char>(torus.vertexCount(), 0));
-		const VertexVector flat = VertexVector::Zero(u.size());
-		EXPECT_TRUE(solver.solve(u, flat, upTo(1e-10), [](int, double) {}).converged);
-		EXPECT_TRUE(u.allFinite());
-		EXPECT_EQ(map.brokenTriangles(), 0);
-		for (double delta : map.delta())
-			EXPECT_TRUE(std::isfinite(delta) && delta >= 0.0);
-		const MetricMeasure measure(map.triangulation(), map.lengths());
-		for (long double k : measure.curvature)
-			EXPECT_LT(std::abs(k), 1e-9L);
-	}
 }
 
 } // namespace

@@ -22,21 +22,6 @@ TEST(CirclePacking, ThurstonClampsTheInversiveDistance)
 	}
 }
 
-std::vector<SurfaceMesh> surfacesToFlip()
-{
-	Random random(160);
-	return {
-		randomPlanarDisk(10, random),
-		bumpyTorus(14, 9, random),
-		sliverDisk(12, 3.0, random),
-		shaken(perforatedSlab(2, 3), 0.05, random)};
-}
-
-InitialPacking startOf(const Packed& mesh)
-{
-	return delaunayPacking({mesh.triangulation, mesh.lengths}, {});
-}
-
 /// Sides of length 1, and as wound round a torus of this \p height so many \p turns.
 IntrinsicMesh wound(double turns, double height)
 {
@@ -46,71 +31,6 @@ IntrinsicMesh wound(double turns, double height)
 	mesh.lengths[h[1].edge()] = std::hypot(turns, height);
 	mesh.lengths[h[2].edge()] = std::hypot(turns + 1.0, height);
 	return mesh;
-}
-
-/// The flips lead from the surface to another triangulation of the same metric, and back.
-TEST(DelaunayPacking, KeepsTheMetricOfTheSurface)
-{
-	for (const SurfaceMesh& mesh : surfacesToFlip()) {
-		const Packed packed(mesh);
-		const auto start = startOf(packed);
-		const Triangulation& t = start.mesh.triangulation;
-		EXPECT_GT(start.flips.size(), 5u);
-		EXPECT_EQ(start.lengthened.largest, 0.0);
-		const MetricMeasure before(packed.triangulation, packed.lengths);
-		const MetricMeasure after(t, start.mesh.lengths);
-		EXPECT_NEAR(static_cast<double>(after.area / before.area), 1.0, 1e-12);
-		for (const Vertex v : t.vertices())
-			EXPECT_NEAR(static_cast<double>(after.curvature[v] - before.curvature[v]), 0.0, 1e-9);
-		if (mesh.positions.size() == 121) // in the plane
-			for (const Edge e : t.edges()) {
-				const auto [i, j] = t.ends(e);
-				const double straight = distance(mesh.positions[at(i)], mesh.positions[at(j)]);
-				EXPECT_NEAR(start.mesh.lengths[e], straight, 1e-13);
-			}
-		IntrinsicMesh back = start.mesh;
-		Triangulation forth = packed.triangulation;
-		for (const Edge e : start.flips)
-			forth.flip(e);
-		for (auto e = start.flips.rbegin(); e != start.flips.rend(); ++e) {
-			back.lengths[*e] = flippedLength(back, *e);
-			back.triangulation.unflip(*e);
-		}
-		for (const Halfedge h : t.halfedges()) {
-			ASSERT_EQ(forth.next(h), t.next(h));
-			ASSERT_EQ(forth.origin(h), t.origin(h));
-			ASSERT_EQ(back.triangulation.next(h), packed.triangulation.next(h));
-		}
-		for (const Edge e : t.edges())
-			EXPECT_NEAR(back.lengths[e] / packed.lengths[e], 1.0, 1e-8);
-	}
-}
-
-TEST(DelaunayPacking, IsWeightedDelaunayWithDisjointCircles)
-{
-	// Two independent forms of the test: by heights of power centres in the metric here, by tilts in
-	// the conformal class there.
-	for (const SurfaceMesh& mesh : surfacesToFlip()) {
-		const auto start = startOf(Packed(mesh));
-		const Triangulation& t = start.mesh.triangulation;
-		VertexArray<double> kappa;
-		int good = 0;
-		for (const double r : start.radii)
-			kappa.push_back(1 / r);
-		for (const Edge e : t.edges()) {
-			EXPECT_GT(start.delta[e], 0.0);
-			if (isWeightedDelaunay(t, start.delta, kappa, e)) {
-				++good;
-				continue;
-			}
-			// Only where both forms are within rounding of a tie.
-			const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
-			const double length = flippedLength(start.mesh, e);
-			const double delta = Euclidean::delta(length, start.radii[k], start.radii[l]);
-			EXPECT_NEAR(delta / flippedDelta(t, start.delta, e), 1.0, 1e-8);
-		}
-		EXPECT_GT(10 * good, 9 * t.edgeCount()); // ties are few
-	}
 }
 
 TEST(DelaunayPacking, UnwindsANeedleOfManyTurns)
@@ -201,38 +121,6 @@ TEST(Mollify, GivesATriangleTheExcessThatIsMissing)
 			EXPECT_EQ(m.addedAt(m.t.origin(corners[0])), 0.0);
 			EXPECT_EQ(m.addedAt(m.t.origin(corners[1])), 0.0);
 		}
-}
-
-TEST(Mollify, ChangesDegenerateTrianglesAlone)
-{
-	for (const SurfaceMesh& mesh : surfacesToFlip()) {
-		const Mollified valid(mesh);
-		EXPECT_TRUE(valid.added.atVertex.empty());
-		EXPECT_EQ(valid.after, valid.before);
-	}
-	SurfaceMesh mesh = rectangle(8, 8, 1, 1);
-	mesh.positions[12] = mesh.positions[13];   // an edge without length
-	mesh.positions[40] = {0.4375, 0.375, 0.0}; // a face folded into a line
-	const Mollified m(mesh);
-	EXPECT_EQ(m.added.largest, 1.0);
-	VertexArray<char> isNear(m.t.vertexCount(), 0);
-	for (const Face f : m.t.faces()) {
-		const auto [a, b, c] = m.t.vertices(f);
-		const Point3& p = mesh.positions[at(a)];
-		if (length(cross(mesh.positions[at(b)] - p, mesh.positions[at(c)] - p)) < 1e-12)
-			isNear[a] = isNear[b] = isNear[c] = 1;
-	}
-	for (const Vertex v : m.t.vertices())
-		EXPECT_TRUE(isNear[v] || m.addedAt(v) == 0.0) << v.number();
-
-	// Cells of 0.02 by 0.001, and at a corner a needle and a flat triangle 1000 long.
-	const Mollified tail(
-		withFlatTail(rectangle(50, 50, 1, 0.05), 51 * 51 - 2, 51 * 51 - 1, 1000.0));
-	int touched = 0;
-	for (const double x : tail.added.atVertex)
-		touched += x > 0.0;
-	EXPECT_LE(touched, 4);
-	EXPECT_GE(touched, 1);
 }
 
 TEST(Mollify, VerticesAtOnePlaceGetTheSame)
