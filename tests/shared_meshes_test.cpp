@@ -4,7 +4,6 @@
 #include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/mesh_file.h"
-#include "support/obj_writer.h"
 #include "support/shapes.h"
 
 #include <gtest/gtest.h>

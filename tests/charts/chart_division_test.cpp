@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts that cover a part of the plane more than once become several that do not.
 #include "screw.h"
-#include "support/covered_twice.h"
 #include "support/flat_map.h"
 
 #include <ricci/parametrize.h>

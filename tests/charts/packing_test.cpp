@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts as texture coordinates: where they lie, how far apart, and what they leave free. Pieces of the plane are
 // their own charts.
-#include "support/covered_twice.h"
 #include "support/expect.h"
+#include "support/flat_map.h"
 #include "support/random_surface.h"
 
 #include <ricci/error.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curvature of a packing and its derivative, in both backgrounds.
-#include "support/derivative.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -12,6 +11,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace ricci::testing {
 namespace {
@@ -40,6 +41,25 @@ Packed twoVertexTorus()
 		lengths[h[2].edge()] = distance(corner[f], inside);
 	}
 	return Packed(t, lengths);
+}
+
+/// A symmetric matrix from its lower triangle.
+Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix)
+{
+	const Eigen::MatrixXd lower = matrix;
+	return lower.selfadjointView<Eigen::Lower>();
+}
+
+/// The whole Hessian with all vertices unknown, both triangles.
+Eigen::MatrixXd denseHessian(const CurvatureMap& map)
+{
+	const int n = map.triangulation().vertexCount();
+	VertexArray<int> unknown(n);
+	std::iota(unknown.begin(), unknown.end(), 0);
+	Hessian hessian;
+	hessian.layOut(map, unknown, n);
+	hessian.fill(map, 0.0);
+	return bothTriangles(hessian.matrix());
 }
 
 /// Closed, with boundaries, of several genera, and with angles down to 1e-3 degrees.
