@@ -114,45 +114,6 @@ TEST(Newton, ReachesTheRoundingFloor)
 	}
 }
 
-TEST(Newton, SolvesADoubleOnHalfTheUnknowns)
-{
-	Random random(77);
-	for (const SurfaceMesh& surface :
-		 {shaken(rectangle(9, 7, 3.0, 2.0), 0.05, random), ring(1.0, 2.0, 24, 6)}) {
-		const IntrinsicMesh half = intrinsicMesh(surface);
-		const DoubleSurface d = doubleOf(half.triangulation);
-		EdgeArray<double> lengths;
-		for (const Edge e : d.edgeOf)
-			lengths.push_back(half.lengths[e]);
-		const Packed mesh(d.triangulation, lengths);
-		const VertexVector smoothed = smoothedCurvature(mesh);
-		VertexVector target = smoothed;
-		for (const Vertex v : d.mirror.indices())
-			target[v] = 0.5 * (smoothed[v] + smoothed[d.mirror[v]]);
-		Solve whole{mesh};
-		ASSERT_TRUE(whole.to(target, upTo(1e-12)).result.converged);
-
-		Map map = mesh.map();
-		NewtonSolver solver(map, whole.fixed, d.mirror);
-		VertexVector u = mesh.u();
-		const auto solve = [&] {
-			return solver.solve(u, target, upTo(1e-12), [](int, double) {}).converged;
-		};
-		ASSERT_TRUE(solve());
-		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
-		for (const Vertex v : d.mirror.indices())
-			EXPECT_EQ(u[v], u[d.mirror[v]]);
-		const double flops = solver.work().flops;
-		EXPECT_LT(flops, whole.solver.work().flops);
-		solver.dropSymmetry();
-		EXPECT_EQ(solver.work().flops, flops);
-		u = mesh.u();
-		EXPECT_TRUE(solve());
-		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
-		EXPECT_GT(solver.work().flops, flops);
-	}
-}
-
 TEST(Newton, KeepsTheMeanWhereNothingIsFixed)
 {
 	Random random(72);

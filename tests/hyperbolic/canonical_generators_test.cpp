@@ -128,17 +128,6 @@ TEST(CanonicalGenerators, HaveTheProductOfTheWord)
 	EXPECT_GT(refused, 50);
 }
 
-/// The letters as they stand are one way to read the word; the one that moves 0 least is taken.
-TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreNoLongerThanItsLetters)
-{
-	Random random(872);
-	const Array<ExtendedIsometry> g = randomIsometries(2, 0.3, random);
-	const Handles handles = canonicalBases(canonicalWord(1), g).front();
-	ASSERT_EQ(handles.size(), 2u);
-	for (const ExtendedIsometry& h : handles)
-		EXPECT_LE(h.displacement(), std::max(g[0].displacement(), g[1].displacement()) + 1e-17);
-}
-
 /// The word with x P y Q x^-1 R y^-1 S put for P S R Q, for every handle in turn: all corners of its
 /// polygon are one point, and the letters of a handle lie far apart. Beyond genus 25 fewer words are followed.
 TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWord)

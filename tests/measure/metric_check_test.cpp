@@ -6,14 +6,13 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/hyperbolic/closing_error.h>
+#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/measure/metric_check.h>
 #include <ricci/metric/hyperbolic.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -126,10 +125,7 @@ struct LaidOut
 	{
 		return closingError(flow.base(), cut, disk, target);
 	}
-	FuchsianGroup group() const
-	{
-		return fuchsianGroup(flow.base(), cut, disk.pairing);
-	}
+	FuchsianGroup group() const { return fuchsianGroup(flow.base(), cut, disk.pairing); }
 
 	/// The same with \p extra at the place of h in the side pairing of the edge of \p side, on its side there.
 	LaidOut with(const ExtendedIsometry& extra, Halfedge side) const

@@ -55,19 +55,6 @@ TEST(AndersonMixing, EndsAfterOneStepMoreThanUnknownsOnAnyAffineMap)
 	}
 }
 
-TEST(AndersonMixing, WithoutDepthIsThePlainIteration)
-{
-	Random random(302);
-	const AffineMap map(4, 0.9, random);
-	AndersonMixing mixing(0);
-	std::vector<double> x(4, 0.0);
-	for (int step = 0; step < 5; ++step) {
-		const std::vector<double> image = map(x);
-		x = mixing.next(x, image);
-		EXPECT_EQ(x, image);
-	}
-}
-
 TEST(AndersonMixing, OneStepBackMakesTheResidualShortest)
 {
 	Random random(303);

@@ -34,39 +34,6 @@ struct Old
 	std::size_t count() const { return std::set<int>(charts.begin(), charts.end()).size(); }
 };
 
-TEST(OldOwners, KnowTheBlocksOfEachChart)
-{
-	Random random(735);
-	const Old old(Square(4), shatteredAtlas(32, random));
-	const Blocks blocks{83, 57};
-	OldOwners owners(old.faces, old.charts, old.all, blocks.width, blocks.height);
-	owners.addLevels(blocks.lastLevel());
-	int whole = 0, parts = 0;
-	for (const int chart : old.charts)
-		for (int level = 0; level <= blocks.lastLevel(); ++level)
-			blocks.forLevel(level, [&](const Block& b) {
-				const int side = 1 << level;
-				int all = 0, own = 0;
-				for (int y = b.y * side; y < std::min((b.y + 1) * side, blocks.height); ++y)
-					for (int x = b.x * side; x < std::min((b.x + 1) * side, blocks.width); ++x) {
-						++all;
-						own += owners.of(chart).has(blocks.index({0, x, y}));
-					}
-				ASSERT_EQ(blocks.texels(b), all);
-				const OldOwners::Share share = owners.of(chart).of(level, blocks.index(b));
-				if (share == OldOwners::Share::All)
-					EXPECT_EQ(own, all);
-				else if (share == OldOwners::Share::None)
-					EXPECT_EQ(own, 0);
-				else // what overlaps is own and may look like a part
-					EXPECT_LT(own, all);
-				parts += share == OldOwners::Share::Part;
-				whole += level > 0 && own == all;
-			});
-	EXPECT_GT(whole, 100);
-	EXPECT_GT(parts, 100);
-}
-
 /// A thousand tiles, each with the whole picture in two triangles of one chart, in turns mirrored.
 TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 {
