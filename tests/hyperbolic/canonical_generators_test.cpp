@@ -133,7 +133,7 @@ TEST(CanonicalGenerators, HaveTheProductOfTheWord)
 TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWord)
 {
 	Random random(874);
-	const int handles = 30;
+	const int handles = 26;
 	GroupWord word;
 	for (int g = 0; g < 2 * handles; g += 2) {
 		std::array<std::ptrdiff_t, 3> place{};
