@@ -72,38 +72,6 @@ std::array<double, 3> angles(const Triangle2& t)
 	return angle;
 }
 
-TEST(ParametrizeHyperbolic, ClosedSurfacesLieInTheDisk)
-{
-	Random random(701);
-	for (int genus : {2, 3}) {
-		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
-		const FlatResult map = run(mesh, refined());
-		const Report& report = map.report;
-		EXPECT_TRUE(report.converged);
-		EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
-		EXPECT_EQ(report.genus, genus);
-		EXPECT_EQ(report.charts, 1);
-		EXPECT_EQ(report.flippedFaces, 0);
-		EXPECT_EQ(report.brokenTriangles, 0);
-		ASSERT_TRUE(report.hyperbolicArea && report.relationError);
-		EXPECT_NEAR(*report.hyperbolicArea / (4 * kPi * (genus - 1)), 1.0, 1e-8);
-		EXPECT_LT(*report.relationError, 1e-8);
-		EXPECT_GT(report.seamEdges, 0);
-		ASSERT_EQ(map.charts.size(), 1u);
-		for (const UV& uv : {map.uv, map.mesh.corners().values()})
-			for (const auto& corners : uv)
-				for (const Point2& p : corners)
-					EXPECT_LT(std::abs(asComplex(p)), 1.0);
-		// Near the middle, where its own area is nearly that of the disk's picture.
-		double least = 1.0;
-		for (const auto& corners : map.uv)
-			least = std::min(least, std::abs(asComplex(corners[0])));
-		EXPECT_LT(least, 0.1);
-		for (double u : map.u)
-			EXPECT_LT(u, 0.0);
-	}
-}
-
 /// A seam's two sides are as long as each other, on the mesh and on the refinement; the latter's
 /// pieces fill every face.
 TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
@@ -137,27 +105,6 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 				}
 	}
 	EXPECT_GE(kept.report.qcMean, 1.0);
-}
-
-TEST(ParametrizeHyperbolic, SurfacesWithBoundary)
-{
-	Random random(702);
-	const SurfaceMesh meshes[] = {
-		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
-		withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120})};
-	for (const SurfaceMesh& mesh : meshes) {
-		const FlatResult map = run(mesh, refined());
-		EXPECT_EQ(map.report.eulerCharacteristic, -1);
-		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi), 1.0, 1e-8);
-		EXPECT_LT(*map.report.relationError, 1e-8); // lengths of the boundaries included
-		EXPECT_EQ(map.report.flippedFaces, 0);
-		EXPECT_EQ(map.charts[0].group.peripheral.size(), at(map.report.boundaryLoops));
-		HyperbolicOptions options = refined();
-		options.freeBoundary = true;
-		const FlatResult free = run(mesh, options);
-		EXPECT_EQ(free.report.flippedFaces, 0);
-		EXPECT_LE(free.report.maxCurvatureError, 1e-8);
-	}
 }
 
 TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCountedAndDivided)
@@ -226,17 +173,6 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	EXPECT_GT(radius(map), 0.0);
 	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
-}
-
-TEST(ParametrizeHyperbolic, ATorusHasAHyperbolicMetricWithACone)
-{
-	const SurfaceMesh mesh = torus(2, 1, 12, 8);
-	HyperbolicOptions options = refined();
-	options.target = HyperbolicTarget::SelectedCones;
-	options.coneAngle = kPi;
-	const FlatResult map = run(mesh, options, selecting(mesh, {5}));
-	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
-	EXPECT_EQ(map.report.flippedFaces, 0);
 }
 
 /// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits

@@ -349,16 +349,6 @@ TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
 	}
 }
 
-TEST(Parametrize, ARegularPolygonIsADiskAlready)
-{
-	for (int n : {5, 12}) {
-		const SurfaceMesh polygon = fan(n, 0.0);
-		const FlatResult flat = run(polygon, fixedTriangulation(TargetCurvature::Disk));
-		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
-		EXPECT_LT(roundness(polygon, flat.uv), 1e-12);
-	}
-}
-
 TEST(Parametrize, ClosedSurfacesWithCones)
 {
 	Random random(204);

@@ -110,15 +110,6 @@ TEST(EnclosingPolygon, OfAHexagonAddsTwoTriangles)
 	EXPECT_NEAR(0.5 * area, (6 + 2) * std::sqrt(3.0) / 4, 1e-14);
 }
 
-/// No side of a triangle or a parallelogram can be left out.
-TEST(EnclosingPolygon, KeepsWhatCannotBeSimpler)
-{
-	const std::vector<Point2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-		triangle{{0, 0}, {1, 0}, {0, 1}};
-	EXPECT_EQ(enclosingPolygon(square, 3), square);
-	EXPECT_EQ(enclosingPolygon(triangle, 2), triangle);
-}
-
 double area(const OrientedRectangle& r)
 {
 	return r.width() * r.height();

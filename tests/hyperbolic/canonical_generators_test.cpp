@@ -308,27 +308,6 @@ TEST(BestConditioned, ShortensWhatTwistsHaveMadeLong)
 	}
 }
 
-/// With boundary loops, the element of the free group is kept, so that those behind still fit.
-TEST(BestConditioned, KeepsTheProductWherePeripheralElementsFollow)
-{
-	Random random(882);
-	int improved = 0;
-	for (int trial = 0; trial < 40; ++trial) {
-		const Array<ExtendedIsometry> letters = randomIsometries(2 * (1 + trial % 3), 1.5, random);
-		const Handles handles = tangled(Handles(letters.begin(), letters.end()), 3, random);
-		const ExtendedIsometry product = relationOf(handles);
-		const Handles found = bestConditioned({handles}, {product.inverse()});
-		ASSERT_EQ(found.size(), handles.size());
-		const double before = conditionOf(handles), after = conditionOf(found);
-		EXPECT_LE(after, before);
-		improved += after < 0.5 * before;
-		EXPECT_LT(
-			errorOf(relationOf(found) * product.inverse()),
-			kProductEpsilon * after * std::pow(static_cast<double>(abs(product.a)), 2) * 8);
-	}
-	EXPECT_GT(improved, 10);
-}
-
 TEST(BestConditioned, TakesTheBestAndRefusesTheFar)
 {
 	Random random(883);
