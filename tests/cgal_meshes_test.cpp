@@ -2,9 +2,10 @@
 // Meshes of Debian's package libcgal-demo, clean and dirty, of many topologies: each is mapped
 // without a defect, or refused for a reason that holds.
 #include "support/intrinsic.h"
-#include "support/opened_map.h"
 #include "support/refinement_check.h"
 #include "support/shapes.h"
+
+#include <ricci/whole_map.h>
 
 #include <gtest/gtest.h>
 
@@ -17,10 +18,29 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
+
+/// The charts of any triangles before they are packed, on the mesh that openMesh() makes of these, with all faces
+/// in the order in which they are counter-clockwise.
+struct OpenedMap
+{
+	SurfaceMesh mesh;
+	Parametrization map;
+
+	OpenedMap(const SurfaceMesh& input, const VertexInput& values, const Options& options)
+	{
+		WholeMap whole = chartsInPlane(input, values, options);
+		map = std::move(whole.map);
+		mesh = whole.opened.mesh;
+		for (const Face f : whole.opened.reversed.indices())
+			if (whole.opened.reversed[f])
+				std::swap(mesh.triangles[at(f)][1], mesh.triangles[at(f)][2]);
+	}
+};
 
 const std::filesystem::path kFolder = std::filesystem::path(RICCI_CGAL_MESHES_DIR) / "data/meshes";
 

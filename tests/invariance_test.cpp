@@ -496,7 +496,7 @@ std::vector<Call> threadedRuns()
 	inDisk.output = OutputTriangulation::CommonRefinement;
 	inDisk.canonicalGenerators = true;
 	return {
-		{"Large", bumpyTorus(150, 120, random), placed},
+		{"Large", bumpyTorus(110, 90, random), placed},
 		{"Unfolded", perforatedSlab(1, 6), Options()},
 		{"Refined", handles, refined},
 		{"Hyperbolic", handles, inDisk},

@@ -72,63 +72,6 @@ std::array<double, 3> angles(const Triangle2& t)
 	return angle;
 }
 
-/// The shortest closed geodesics that are products of four side pairings at most, by their traces.
-std::vector<double> shortestTraces(const Parametrization& map)
-{
-	const std::vector<DiskIsometry>& sides = map.charts[0].group.sides;
-	std::vector<double> traces;
-	std::vector<DiskIsometry> words{DiskIsometry()};
-	for (int letters = 0; letters < 4; ++letters) {
-		std::vector<DiskIsometry> longer;
-		for (const DiskIsometry& word : words)
-			for (const DiskIsometry& side : sides)
-				if (const DiskIsometry product = word * side; product.displacement() < 14.0) {
-					longer.push_back(product);
-					if (std::abs(product.trace()) > 2.0 + 1e-6)
-						traces.push_back(std::abs(product.trace()));
-				}
-		words = std::move(longer);
-	}
-	std::sort(traces.begin(), traces.end());
-	std::vector<double> spectrum;
-	for (const double trace : traces)
-		if (spectrum.size() < 3 && (spectrum.empty() || trace > spectrum.back() * (1 + 1e-7)))
-			spectrum.push_back(trace);
-	return spectrum;
-}
-
-TEST(ParametrizeHyperbolic, ClosedSurfacesLieInTheDisk)
-{
-	Random random(701);
-	for (int genus : {2, 3}) {
-		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
-		const FlatResult map = run(mesh, refined());
-		const Report& report = map.report;
-		EXPECT_TRUE(report.converged);
-		EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
-		EXPECT_EQ(report.genus, genus);
-		EXPECT_EQ(report.charts, 1);
-		EXPECT_EQ(report.flippedFaces, 0);
-		EXPECT_EQ(report.brokenTriangles, 0);
-		ASSERT_TRUE(report.hyperbolicArea && report.relationError);
-		EXPECT_NEAR(*report.hyperbolicArea / (4 * kPi * (genus - 1)), 1.0, 1e-8);
-		EXPECT_LT(*report.relationError, 1e-8);
-		EXPECT_GT(report.seamEdges, 0);
-		ASSERT_EQ(map.charts.size(), 1u);
-		for (const UV& uv : {map.uv, map.mesh.corners().values()})
-			for (const auto& corners : uv)
-				for (const Point2& p : corners)
-					EXPECT_LT(std::abs(asComplex(p)), 1.0);
-		// Near the middle, where its own area is nearly that of the disk's picture.
-		double least = 1.0;
-		for (const auto& corners : map.uv)
-			least = std::min(least, std::abs(asComplex(corners[0])));
-		EXPECT_LT(least, 0.1);
-		for (double u : map.u)
-			EXPECT_LT(u, 0.0);
-	}
-}
-
 /// A seam's two sides are as long as each other, on the mesh and on the refinement; the latter's
 /// pieces fill every face.
 TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
@@ -162,62 +105,6 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 				}
 	}
 	EXPECT_GE(kept.report.qcMean, 1.0);
-}
-
-TEST(ParametrizeHyperbolic, SurfacesWithBoundary)
-{
-	Random random(702);
-	const SurfaceMesh meshes[] = {
-		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
-		withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120})};
-	for (const SurfaceMesh& mesh : meshes) {
-		const FlatResult map = run(mesh, refined());
-		EXPECT_EQ(map.report.eulerCharacteristic, -1);
-		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi), 1.0, 1e-8);
-		EXPECT_LT(*map.report.relationError, 1e-8); // lengths of the boundaries included
-		EXPECT_EQ(map.report.flippedFaces, 0);
-		EXPECT_EQ(map.charts[0].group.peripheral.size(), at(map.report.boundaryLoops));
-		HyperbolicOptions options = refined();
-		options.freeBoundary = true;
-		const FlatResult free = run(mesh, options);
-		EXPECT_EQ(free.report.flippedFaces, 0);
-		EXPECT_LE(free.report.maxCurvatureError, 1e-8);
-	}
-}
-
-/// The disk and the annulus have hyperbolic metrics as soon as their boundary is free. That of a
-/// round disk of area 2 pi is the disk of radius asinh(sqrt(2)); a cylinder of period 2 pi and height
-/// w has a closed geodesic of length 2 pi k, sqrt(w) k = cos(k w / 2): see hyperbolic_flow_test.cpp.
-TEST(ParametrizeHyperbolic, DiskAndAnnulusWithFreeBoundary)
-{
-	HyperbolicOptions options = refined();
-	options.freeBoundary = true;
-	std::vector<std::array<double, 2>> round, straight;
-	const int n = 48;
-	const double height = 1.7, error = 2 * std::pow(2 * kPi / n, 2); // second order
-	for (int i = 0; i <= n / 4; ++i)
-		round.push_back({4.0 * i / n, 0.0});
-	for (int i = 0; i <= n / 3; ++i)
-		straight.push_back({1.0, 3.0 * i / n * height});
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
-		options.output = output;
-		const FlatResult disk = run(revolved(round, n), options);
-		EXPECT_EQ(disk.report.flippedFaces, 0);
-		EXPECT_EQ(disk.report.relationError, 0.0);
-		EXPECT_TRUE(disk.charts[0].group.sides.empty());
-		EXPECT_NEAR(*disk.report.hyperbolicArea, 2 * kPi * (std::sqrt(3.0) - 1.0), error);
-		EXPECT_NEAR(radius(disk), std::asinh(std::sqrt(2.0)), error);
-		const FlatResult annulus = run(revolved(straight, n), options);
-		EXPECT_EQ(annulus.report.flippedFaces, 0);
-		EXPECT_LT(*annulus.report.relationError, 1e-9);
-		double k = 1.0;
-		for (int i = 0; i < 200; ++i)
-			k = std::cos(0.5 * k * height) / std::sqrt(height);
-		ASSERT_EQ(annulus.charts[0].group.peripheral.size(), 2u);
-		for (const DiskIsometry& m : annulus.charts[0].group.peripheral)
-			EXPECT_NEAR(2.0 * std::acosh(0.5 * std::abs(m.trace())), 2 * kPi * k, error);
-	}
 }
 
 TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCountedAndDivided)
@@ -286,35 +173,6 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	EXPECT_GT(radius(map), 0.0);
 	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
-}
-
-/// Lengths of closed geodesics belong to the metric, not to the cut or the numbers it is found with.
-TEST(ParametrizeHyperbolic, LengthsOfGeodesicsDoNotDependOnTheNumbers)
-{
-	Random random(704);
-	const SurfaceMesh mesh = genusTwo(705, 2);
-	HyperbolicOptions options;
-	options.epsilon = 1e-12;
-	const std::vector<double> expected = shortestTraces(run(mesh, options));
-	ASSERT_EQ(expected.size(), 3u);
-	for (int trial = 0; trial < 2; ++trial) {
-		const std::vector<double> traces =
-			shortestTraces(run(renumbered(mesh, random).mesh, options));
-		ASSERT_EQ(traces.size(), 3u);
-		for (std::size_t i = 0; i < 3; ++i)
-			EXPECT_NEAR(traces[i] / expected[i], 1.0, 1e-8);
-	}
-}
-
-TEST(ParametrizeHyperbolic, ATorusHasAHyperbolicMetricWithACone)
-{
-	const SurfaceMesh mesh = torus(2, 1, 12, 8);
-	HyperbolicOptions options = refined();
-	options.target = HyperbolicTarget::SelectedCones;
-	options.coneAngle = kPi;
-	const FlatResult map = run(mesh, options, selecting(mesh, {5}));
-	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
-	EXPECT_EQ(map.report.flippedFaces, 0);
 }
 
 /// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits
@@ -589,7 +447,7 @@ TEST(HighGenus, SlabsWithManyHandles)
 
 TEST(HighGenus, SkeletonsOfSolids)
 {
-	for (const int genus : {5, 7, 12}) {
+	for (const int genus : {7, 12}) {
 		SCOPED_TRACE("genus " + std::to_string(genus));
 		expectHyperbolicMap(asFound(skeleton(genus)), genus);
 	}

@@ -115,6 +115,27 @@ TEST(Parametrize, AChartStandsUprightInItsLeastRectangleOrSquare)
 		}
 }
 
+/// On a surface of every kind no triangle turns, and the distortion is less than that of straight triangles alone.
+TEST(Parametrize, TheLeastDistortionIsLessWithoutTurningATriangle)
+{
+	Random random(621);
+	int better = 0;
+	const std::vector<SurfaceMesh> meshes = surfacesOfEveryKind(random);
+	for (const SurfaceMesh& mesh : meshes) {
+		Options options;
+		options.charts = Charts::OfTheFlow;
+		options.target = TargetCurvature::PlacedCones;
+		options.cones.distortion = 1.0;
+		options.finish = Finish::Repair;
+		const Report straight = run(mesh, options).report;
+		options.finish = Finish::LeastDistortion;
+		const Report least = run(mesh, options).report;
+		EXPECT_EQ(least.flippedFaces, 0);
+		better += least.qcVertexMean < straight.qcVertexMean;
+	}
+	EXPECT_EQ(better, static_cast<int>(meshes.size()));
+}
+
 TEST(Parametrize, LeastStretchLetsSeamsGoAndKeepsAreasBetter)
 {
 	Random random(216);
@@ -191,7 +212,7 @@ TEST(Parametrize, AFaceWithoutAreaChangesNoOther)
 {
 	// Its edge is 1000 times as long as the rectangle, whose faces keep their angles all the same: the plane
 	// is mapped to itself.
-	const int n = 60, faces = 2 * n * n, corner = (n + 1) * (n + 1) - 1;
+	const int n = 40, faces = 2 * n * n, corner = (n + 1) * (n + 1) - 1;
 	const SurfaceMesh tail = withFlatTail(rectangle(n, n, 0.05, 1), corner - 1, corner, 1000.0);
 	Options options;
 	options.finish = Finish::None;
@@ -202,7 +223,7 @@ TEST(Parametrize, AFaceWithoutAreaChangesNoOther)
 	for (int f = 0; f < faces; ++f)
 		EXPECT_NEAR(qc[at(f)], 1.0, 1e-6) << f;
 
-	// The tail opens a sixtieth of a side of the rectangle, and the face without area nothing.
+	// The tail opens a fortieth of a side of the rectangle, and the face without area nothing.
 	options.target = TargetCurvature::Rectangle;
 	const std::vector<int> corners{0, n, n * (n + 1), corner};
 	SurfaceMesh without = tail;
@@ -240,6 +261,16 @@ TEST(Parametrize, QuarterTurnsAcrossSeamsStaySoInTheSquare)
 	}
 	EXPECT_GT(turned, 10);
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-6);
+}
+
+/// One line of edges across a planar ring, which the flow leaves as it is.
+TEST(Parametrize, TheSeamOfARingIsShortest)
+{
+	Options options;
+	options.target = TargetCurvature::Flat;
+	const Report report = run(ring(1, 4, 12, 5), options).report;
+	EXPECT_EQ(report.seamEdges, 5);
+	EXPECT_NEAR(report.seamLength, 3.0, 1e-12);
 }
 
 TEST(Parametrize, ARectangleHasFourStraightSides)
@@ -341,16 +372,6 @@ TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
 				p = {static_cast<float>(p[0]), static_cast<float>(p[1])};
 		}
 		EXPECT_LT(roundness(square, stored), 2e-7); // half a step of a float, twice
-	}
-}
-
-TEST(Parametrize, ARegularPolygonIsADiskAlready)
-{
-	for (int n : {5, 12}) {
-		const SurfaceMesh polygon = fan(n, 0.0);
-		const FlatResult flat = run(polygon, fixedTriangulation(TargetCurvature::Disk));
-		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
-		EXPECT_LT(roundness(polygon, flat.uv), 1e-12);
 	}
 }
 
@@ -536,6 +557,8 @@ TEST(Parametrize, ARibbonWithoutInnerVerticesGetsNoCones)
 	for (const int length : {100, 11000})
 		for (const Ends ends : {Ends::Open, Ends::Joined})
 			for (Options options : all) {
+				if (length > 100 && ends == Ends::Joined)
+					continue;
 				SCOPED_TRACE(length);
 				const SurfaceMesh ribbon = grid(1, length, Ends::Open, ends, [&](int i, int j) {
 					const double turn = ends == Ends::Open ? 0.05 * j : 2.0 * kPi * j / length;

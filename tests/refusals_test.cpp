@@ -444,7 +444,7 @@ std::vector<Refusal> curvatures()
 		E(E::HyperbolicSum, 3 * kPi, 4 * kPi, 0, type(0, 0)),
 		"2 pi chi = 12.5663706");
 	// All the negative curvature of many handles is moved to one small hole.
-	const SurfaceMesh handles = withoutStars(perforatedSlab(20, 2), {0});
+	const SurfaceMesh handles = withoutStars(perforatedSlab(10, 2), {0});
 	add("ScalesApart", handles, plane, {}, E(E::ScalesApart, kBeyond), "times as large as others");
 	return table.rows();
 }
@@ -482,7 +482,7 @@ std::vector<Refusal> flows()
 		E(E::LostInRounding, kSome),
 		Method::IntrinsicFlips,
 		"lost in rounding");
-	const SurfaceMesh handles = withoutStars(perforatedSlab(20, 2), {0});
+	const SurfaceMesh handles = withoutStars(perforatedSlab(10, 2), {0});
 	add("RoundAHole",
 		{"", handles, with([](Options& o) { o.cones.distortion = 1e9; })},
 		E(E::LostInRounding),

@@ -4,7 +4,6 @@
 #include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/mesh_file.h"
-#include "support/obj_writer.h"
 #include "support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -134,9 +133,7 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 	} meshes[] = {
 		{"g1_mc_torus_small.ply", false},
 		{"annulus_mc_catenoid.ply", false},
-		{"disk_mc_terrain.ply", true},
 		{"disk_frog_mc_disk.ply", true},
-		{"peers/mc_torus_g1.ply", false},
 		{"peers/mc_blob_annulus.ply", false}};
 	int present = 0;
 	for (const auto& m : meshes) {
@@ -163,7 +160,7 @@ TEST_F(SharedMeshes, ADiskOrARectangleIsOneChart)
 {
 	// Straight triangles in place of bent ones may lie over others at the border: that is counted, not cut.
 	int found = 0;
-	for (const char* name : {"disk_julius.ply", "disk_frog_mc_disk.ply", "disk_mc_terrain.ply"}) {
+	for (const char* name : {"disk_frog_mc_disk.ply", "disk_mc_terrain.ply"}) {
 		if (!load(name))
 			continue;
 		++found;
@@ -218,8 +215,6 @@ TEST_F(SharedMeshes, WhatCostsMuchAsAWholeIsUnfolded)
 	EXPECT_EQ(flat.report.flippedFaces, 0);
 }
 
-/// Genus 79: floats hold no disk of it, nor near needles that are flipped as straight triangles wherever they
-/// lie. What mends these reaches beyond their disks.
 /// Small bodies that random runs had found, with what they were asked for then and what is best known for them.
 TEST_F(SharedMeshes, SmallBodiesGetMapsNearTheBestKnown)
 {
@@ -253,6 +248,8 @@ TEST_F(SharedMeshes, SmallBodiesGetMapsNearTheBestKnown)
 	}
 }
 
+/// Genus 79: floats hold no disk of it, nor near needles that are flipped as straight triangles wherever they
+/// lie. What mends these reaches beyond their disks.
 TEST_F(SharedMeshes, FloatsHoldTheDisksOfAPlateOfGenusSeventyNine)
 {
 	SKIP_IF_MISSING("wild/lk_front_plate.ply");

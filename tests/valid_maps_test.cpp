@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every map is whose triangles are the mesh's own, whatever it was asked for: no triangle is flipped, no
 // two cover the same part of the square, and seams fit, in the floats that are stored.
-#include "support/covered_twice.h"
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -12,7 +11,6 @@
 
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {

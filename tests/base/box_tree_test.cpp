@@ -89,52 +89,5 @@ TEST(BoxTree, OfManyEqualBoxes)
 	EXPECT_EQ(BoxTree({}).extent(), 0.0);
 }
 
-/// Boxes of two colours: pairs of nodes of which each has only boxes of one, another for each.
-TEST(BoxTree, LeavesOutNodesThatAreApart)
-{
-	Random random(352);
-	const std::vector<Box2> boxes = randomBoxes(300, random);
-	const auto colour = [](int i) { return i % 7 == 0 ? 1 : 2; };
-	const BoxTree tree(boxes);
-	const Array<int> colours = tree.valuesOfNodes<int>(colour, [](int a, int b) { return a | b; });
-	EXPECT_EQ(colours[0], 3); // the root has both
-	std::vector<std::array<int, 2>> all, left;
-	int leftOut = 0;
-	const auto isOneOfEach = [&](int a, int b) { return (colours[a] & colours[b]) == 0; };
-	tree.meetingPairs([&](int i, int j) { all.push_back({i, j}); });
-	tree.meetingPairs(
-		[&](int i, int j) {
-			left.push_back({i, j});
-		},
-		[&](int a, int b) {
-			leftOut += isOneOfEach(a, b);
-			return isOneOfEach(a, b);
-		});
-	EXPECT_GT(leftOut, 0);
-	EXPECT_LT(left.size(), all.size());
-	const auto isOfOneColour = [&](const std::array<int, 2>& pair) {
-		return colour(pair[0]) == colour(pair[1]);
-	};
-	EXPECT_EQ(
-		std::count_if(left.begin(), left.end(), isOfOneColour),
-		std::count_if(all.begin(), all.end(), isOfOneColour));
-	int found = 0;
-	for (int trial = 0; trial < 300; ++trial) {
-		const Point2 p{random.real(0, 11), random.real(0, 11)};
-		std::vector<int> some, ones;
-		const auto keepOnes = [&](std::vector<int>& list) {
-			return [&](int i) {
-				if (colour(i) == 1)
-					list.push_back(i);
-			};
-		};
-		tree.boxesAround(p, keepOnes(ones), kEverywhere);
-		tree.boxesAround(p, keepOnes(some), [&](int node) { return colours[node] == 2; });
-		EXPECT_EQ(some, ones);
-		found += static_cast<int>(ones.size());
-	}
-	EXPECT_GT(found, 20);
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -93,48 +93,6 @@ TEST(ShortestPaths, AreThoseOfBellmanAndFord)
 	EXPECT_GT(unreached, 100);
 }
 
-TEST(SearchFront, GivesNodesByDistanceAndThenByNumberAndKeepsToItsBound)
-{
-	Random random(321);
-	SearchFront<int, int> front(40);
-	for (int trial = 0; trial < 200; ++trial) { // one front serves them all
-		const Graph graph(40, random.index(160), random);
-		const std::vector<int> roots = someNodes(1 + random.index(3), 40, random);
-		const double bound = trial % 2 == 0 ? kInfinity : random.index(12);
-		const Array<double> distance = graph.distances(roots);
-		front.clear();
-		for (const int node : distance.indices()) {
-			ASSERT_EQ(front[node], kInfinity);
-			ASSERT_EQ(front.parent(node), -1);
-		}
-		for (int root : roots)
-			front.offer(root, 0.0);
-		std::vector<int> order;
-		while (front.nearest() < bound) {
-			const double nearest = front.nearest();
-			const int node = front.next(bound);
-			ASSERT_GE(node, 0);
-			EXPECT_EQ(front[node], nearest);
-			order.push_back(node);
-			graph.neighbours(node, [&](int to, double length, int link) {
-				front.offer(to, front[node] + length, link);
-			});
-		}
-		EXPECT_EQ(front.next(bound), -1);
-		std::vector<int> expected;
-		for (const int node : distance.indices())
-			if (distance[node] < bound)
-				expected.push_back(node);
-		std::vector<int> sorted = order;
-		std::sort(sorted.begin(), sorted.end());
-		EXPECT_EQ(sorted, expected); // each once
-		for (std::size_t i = 0; i + 1 < order.size(); ++i)
-			EXPECT_LE(distance[order[i]], distance[order[i + 1]]);
-		for (int node : order)
-			EXPECT_EQ(front[node], distance[node]);
-	}
-}
-
 TEST(SearchFront, TakesEqualDistancesByNumber)
 {
 	SearchFront<int, int> front(6);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts that cover a part of the plane more than once become several that do not.
 #include "screw.h"
-#include "support/covered_twice.h"
 #include "support/flat_map.h"
 
 #include <ricci/parametrize.h>
@@ -10,7 +9,6 @@
 
 #include <cmath>
 #include <set>
-#include <string>
 
 namespace ricci::testing {
 namespace {
@@ -112,6 +110,34 @@ TEST(ChartDivision, OfAScrewSurfaceOnlyMovesItsParts)
 		EXPECT_EQ(map.mesh.face, whole.mesh.face);
 		EXPECT_EQ(
 			std::set<int>(map.mesh.chart.begin(), map.mesh.chart.end()), (std::set<int>{0, 1}));
+	}
+}
+
+/// A plane is its own map. Rounding is no overlap, a thousandth of its size is one.
+TEST(ChartDivision, TouchingIsNoOverlap)
+{
+	const auto overlaps = [](const SurfaceMesh& mesh) {
+		return mapOf(mesh, Charts::OfTheFlow).report.overlappingCharts > 0;
+	};
+	// Two sides of a slit from the centre of a square, which are different vertices at one place.
+	SurfaceMesh slit = rectangle(4, 4, 1.0, 1.0);
+	for (Triangle& t : slit.triangles)
+		for (int& v : t) {
+			const Point3 p = slit.positions[at(v)];
+			double low = 1.0;
+			for (int w : t)
+				low = std::min(low, slit.positions[at(w)][1]);
+			if (p[1] == 0.5 && p[0] > 0.6 && low < 0.5) {
+				slit.positions.push_back(p);
+				v = static_cast<int>(slit.positions.size()) - 1;
+			}
+		}
+	ASSERT_GT(slit.positions.size(), 25u);
+	for (const double gap : {0.0, 1e-12, 1e-3}) {
+		SurfaceMesh closed = slit;
+		for (std::size_t v = 25; v < closed.positions.size(); ++v)
+			closed.positions[v][1] += gap;
+		EXPECT_EQ(overlaps(closed), gap > 1e-9) << gap;
 	}
 }
 

@@ -5,10 +5,8 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/points.h>
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/charts/dual_graph.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
 
@@ -16,10 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
-#include <utility>
 
 namespace ricci::testing {
 namespace {
@@ -65,53 +60,6 @@ TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
 		EXPECT_GE(joined.size(), at(turns));
 		EXPECT_LE(joined.size(), at(turns + turns / 4));
 	}
-}
-
-/// Two corners of a square of 2 x 2 cells are drawn elsewhere, so that a face is flipped. It hides
-/// an overlap of other faces until a cut takes it away from them: each cut is one unit long, or a diagonal.
-TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
-{
-	const SurfaceMesh square = rectangle(2, 2, 2.0, 2.0);
-	SurfaceMesh picture = square;
-	picture.positions[0] = {0, 3, 0};
-	picture.positions[1] = {3, 0, 0};
-	Parametrization map = mapWith(flatMesh(square, flatMesh(picture).corners().values()));
-	separateCharts({true, false}, map);
-	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
-		for (const int f : chart)
-			for (const int g : chart)
-				EXPECT_FALSE(f < g && overlap(map.mesh.at(f), map.mesh.at(g), 1e-9))
-					<< f << " and " << g;
-	EXPECT_EQ(map.report.overlapCuts, 3);
-	EXPECT_EQ(map.charts.size(), 3u);
-}
-
-/// Every triangle keeps its sides, and no two cover the same.
-TEST(SeparateCharts, CutsOffFlippedTrianglesAndReflectsThem)
-{
-	Random random(17);
-	int flipped = 0;
-	for (int i = 0; i < 10; ++i) {
-		const SurfaceMesh square = rectangle(5, 5, 1.0, 1.0);
-		SurfaceMesh picture = square;
-		for (Point3& p : picture.positions)
-			p = {p[0] + random.real(-0.15, 0.15), p[1] + random.real(-0.15, 0.15), 0.0};
-		const std::vector<Triangle2> before = flatMesh(picture).corners().values();
-		Parametrization map = mapWith(flatMesh(square, before));
-		separateCharts({}, map);
-		for (const int f : map.mesh.points.indices()) {
-			const Triangle2 &was = before[at(f)], is = map.mesh.at(f);
-			flipped += orientation(was) < 0;
-			EXPECT_GT(orientation(is), 0);
-			for (std::size_t k = 0; k < 3; ++k)
-				EXPECT_NEAR(
-					distance(is[k], is[(k + 1) % 3]), distance(was[k], was[(k + 1) % 3]), 1e-12);
-			for (int g = 0; g < f; ++g)
-				EXPECT_FALSE(
-					map.mesh.chart[f] == map.mesh.chart[g] && overlap(is, map.mesh.at(g), 1e-9));
-		}
-	}
-	EXPECT_GT(flipped, 20);
 }
 
 /// A mesh over the plane, of which each part lies elsewhere.
@@ -239,80 +187,6 @@ TEST(JoinParts, LeavesWhatHasNoRoomAndDividesCrumbs)
 	ASSERT_EQ(left.size(), 3u);
 	EXPECT_EQ(left[1].size(), 6u);
 	EXPECT_EQ(stays.edgesJoined, 0);
-}
-
-/// Each second arc is a sixtieth of the strip or less, has no room as a whole, and both its neighbours have room
-/// for a half of it: it is a crumb if it is much smaller than they are.
-TEST(JoinParts, AmongManySmallPartsOnlyTheSmallestAreCrumbs)
-{
-	constexpr int around = 40, pairs = 60;
-	for (const bool isCrumb : {true, false}) {
-		const int large = isCrumb ? 37 : 30, small = isCrumb ? 6 : 20;
-		std::vector<int> begins;
-		for (int i = 0; i < pairs; ++i)
-			for (const int offset : {0, large})
-				begins.push_back(i * (large + small) + offset);
-		const int cells = pairs * (large + small);
-		Random random(925);
-		Scattered s = arcs(cells, static_cast<double>(cells) / around, begins, random);
-		const std::size_t joined = s.join().size();
-		if (isCrumb)
-			EXPECT_LT(joined, at(2 * pairs - 5));
-		else
-			EXPECT_EQ(joined, at(2 * pairs));
-		EXPECT_EQ(s.edgesJoined > (isCrumb ? 5 : 0), isCrumb);
-	}
-}
-
-/// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.
-TEST(ConnectedPieces, AreTheSmallerOnesWithAStart)
-{
-	Random random(1210);
-	int several = 0;
-	for (int trial = 0; trial < 2000; ++trial) {
-		const int n = 1 + random.index(40);
-		Parts neighbours(at(n));
-		DisjointSets sets(n);
-		for (int i = random.index(n + 1); i > 0; --i) {
-			const int a = random.index(n), b = random.index(n);
-			neighbours[at(a)].push_back(b);
-			neighbours[at(b)].push_back(a);
-			sets.merge(a, b);
-		}
-		std::vector<int> starts;
-		std::map<int, std::vector<int>> wanted; // by root
-		for (int i = random.index(n + 1); i > 0; --i) {
-			starts.push_back(random.index(n));
-			wanted[sets.find(starts.back())];
-		}
-		for (int i = 0; i < n; ++i)
-			if (const auto piece = wanted.find(sets.find(i)); piece != wanted.end())
-				piece->second.push_back(i);
-		Array<int> scratch(n, -1);
-		Parts found = smallerPieces(
-			starts,
-			[&](int i, const auto& visit) {
-				for (const int j : neighbours[at(i)])
-					visit(j);
-			},
-			scratch);
-		EXPECT_EQ(std::count(scratch.begin(), scratch.end(), -1), n);
-		std::size_t largestFound = 0;
-		for (std::vector<int>& piece : found) {
-			std::sort(piece.begin(), piece.end());
-			const auto known = wanted.find(sets.find(piece.front()));
-			ASSERT_NE(known, wanted.end());
-			EXPECT_EQ(piece, known->second);
-			largestFound = std::max(largestFound, piece.size());
-			wanted.erase(known);
-		}
-		ASSERT_EQ(wanted.size(), starts.empty() ? 0u : 1u);
-		if (!starts.empty()) {
-			EXPECT_GE(wanted.begin()->second.size(), largestFound);
-		}
-		several += found.size() > 1;
-	}
-	EXPECT_GT(several, 300);
 }
 
 } // namespace

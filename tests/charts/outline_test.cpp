@@ -15,16 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace ricci::testing {
 namespace {
-
-Outline outlineOf(const SurfaceMesh& mesh)
-{
-	const FlatMesh chart = flatMesh(mesh);
-	return ricci::outlineOf(chart, chart.trianglesByChart(1).front());
-}
 
 Outline polygon(const std::vector<Point2>& corners)
 {
@@ -38,65 +31,6 @@ Outline box(double width, double height, const Point2& corner = {0, 0})
 {
 	const double x = corner[0], y = corner[1];
 	return polygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}});
-}
-
-/// The unit square without the middle one of nine, in squares of two triangles.
-SurfaceMesh frame()
-{
-	SurfaceMesh mesh = rectangle(3, 3, 1.0, 1.0);
-	mesh.triangles.erase(mesh.triangles.begin() + 8, mesh.triangles.begin() + 10);
-	return mesh;
-}
-
-TEST(OutlineOf, HasTheBorderOnItsLeftWhateverTheTrianglesOrder)
-{
-	SurfaceMesh mesh = frame();
-	const Outline outline = outlineOf(mesh);
-	EXPECT_EQ(outline.size(), 12u + 4u);
-	double doubled = 0.0;
-	for (const auto& side : outline)
-		doubled += doubledArea({0.0, 0.0}, side[0], side[1]);
-	EXPECT_NEAR(doubled, 2.0 * 8.0 / 9.0, 1e-14);
-	std::reverse(mesh.triangles.begin(), mesh.triangles.end());
-	EXPECT_EQ(outlineOf(mesh), outline);
-	EXPECT_TRUE(outlineOf({{{1, 2, 0}, {1, 2, 0}, {1, 2, 0}}, {{0, 1, 2}}}).empty());
-}
-
-/// A flipped triangle covers its points as often less: both sides of its edges go round them.
-TEST(OutlineOf, OfAFoldHasItsSidesTwice)
-{
-	SurfaceMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-	const auto diagonals = [&] {
-		const Outline outline = outlineOf(square);
-		return std::count_if(outline.begin(), outline.end(), [](const auto& s) {
-			return s[0][0] != s[1][0] && s[0][1] != s[1][1] &&
-				   std::abs(distance(s[0], s[1]) - std::sqrt(2.0)) < 0.01;
-		});
-	};
-	EXPECT_EQ(diagonals(), 0);
-	square.positions[3] = {0.9, 0.1, 0};
-	EXPECT_EQ(diagonals(), 2);
-}
-
-/// Of [0, 1]^2 from the unit square at a corner, and of a square in the hole of a frame.
-TEST(KeepApart, AgreesWithDistancesThatAreKnown)
-{
-	const double root = std::sqrt(0.5);
-	for (const auto& [corner, known] :
-		 {std::pair(Point2{1.25, 0.5}, 0.25),
-		  std::pair(Point2{0.3, -1.125}, 0.125),
-		  std::pair(Point2{1.5, 1.5}, root),
-		  std::pair(Point2{-1.5, 1.5}, root)}) {
-		const std::vector<Outline> outlines{box(1.0, 1.0), box(1.0, 1.0, corner)};
-		EXPECT_TRUE(keepApart(outlines, 0.999999 * known));
-		EXPECT_FALSE(keepApart(outlines, 1.000001 * known));
-	}
-	const Outline outer = box(1.0, 1.0), inner = box(0.2, 0.2, {0.4, 0.4});
-	EXPECT_FALSE(keepApart({outer, box(1.0, 1.0, {0.5, 0.5})}, 1e-9)); // they cross
-	EXPECT_FALSE(keepApart({outer, inner}, 1e-9));
-	EXPECT_FALSE(keepApart({inner, outer}, 1e-9));
-	EXPECT_TRUE(keepApart({outlineOf(frame()), inner}, 0.06));
-	EXPECT_FALSE(keepApart({outlineOf(frame()), inner}, 0.07));
 }
 
 /// A circle of n sides.

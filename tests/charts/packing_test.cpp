@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts as texture coordinates: where they lie, how far apart, and what they leave free. Pieces of the plane are
 // their own charts.
-#include "support/covered_twice.h"
 #include "support/expect.h"
+#include "support/flat_map.h"
 #include "support/random_surface.h"
 
-#include <ricci/charts/separate_charts.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
 
@@ -20,6 +19,9 @@
 
 namespace ricci::testing {
 namespace {
+
+/// A cut for room brings this power of what its seam costs at least.
+constexpr double kRoomPrice = 2.3;
 
 /// Pieces over the plane as one mesh, one above the other.
 SurfaceMesh together(const std::vector<SurfaceMesh>& pieces)
@@ -321,6 +323,47 @@ TEST(Packing, CutsChartsForRoomWhereThatWins)
 		EXPECT_EQ(
 			left.mesh.corners(), parametrizeEuclidean(mesh, {}, packing(margin)).mesh.corners());
 	}
+}
+
+/// Slivers lower than two thirds of a step of a float where the caller puts their boxes, which end between two floats:
+/// none is flipped there.
+TEST(Packing, MendsSliversThatAreChartsOfTheirOwn)
+{
+	int flipped = 0;
+	for (const double begin : {8.01, 8.02, 8.03, 8.04}) {
+		std::vector<SurfaceMesh> pieces{rectangle(1, 1, 1.0, 1.0)};
+		for (int i = 0; i < 7; ++i) {
+			const double width = 1e-4 + 1e-5 * i;
+			pieces.push_back(
+				{{{0, 0, 0}, {width, 0, 0}, {0.5 * width, 4e-3 * width, 0}}, {{0, 1, 2}}});
+		}
+		const SurfaceMesh mesh = together(pieces);
+		Options options = packing(0.0, false);
+		options.placeBoxes = [&](const std::vector<Box2>& boxes, double) {
+			std::vector<Point2> shifts;
+			double x = begin;
+			for (const Box2& box : boxes) { // in one row
+				shifts.push_back({x - box.min[0], begin - box.min[1]});
+				x += box.width();
+			}
+			return shifts;
+		};
+		options.finish = Finish::None;
+		flipped += parametrizeEuclidean(mesh, {}, options).report.flippedByRounding;
+		options.finish = Finish::Repair;
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, 0);
+		EXPECT_EQ(map.report.overlappingFaces, 0);
+		for (const int f : map.mesh.points.indices()) {
+			Box2 box = map.charts[at(map.mesh.chart[f])].box;
+			const Point2 step{0x1p-20, 0x1p-20}; // of a float
+			box.min = box.min - step;
+			box.max = box.max + step;
+			for (const Point2& p : map.mesh.at(f))
+				EXPECT_TRUE(box.contains(p));
+		}
+	}
+	EXPECT_GT(flipped, 10);
 }
 
 /// Disks lie in equal squares, row by row.

@@ -105,54 +105,6 @@ TEST(ConeModel, TheGradientIsTheDerivativeOfHalfTheEnergy)
 	EXPECT_GT(count, 5);
 }
 
-/// The model with a cone elsewhere is that which has it there from the beginning, and several cones at a
-/// time are the same as one by one; a trial that is not taken leaves everything.
-TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
-{
-	Linearised linear(closed(0));
-	const Vertex to(50);
-	std::vector<Vertex> elsewhere = kFive, fewer = kFive;
-	elsewhere[2] = to;
-	fewer.erase(fewer.begin() + 2);
-	ConeModel moved = fitted(linear, elsewhere), less = fitted(linear, fewer);
-	ConeModel model(linear.flow, linear.total());
-	for (const Vertex v : kFive)
-		model.append({v});
-	model.fit();
-	EXPECT_NEAR(model.energy(), fitted(linear, kFive).energy(), 1e-10);
-	const Eigen::VectorXd before = model.curvatures();
-	const VertexVector gradient = model.gradient();
-	const auto expectUnchanged = [&] {
-		EXPECT_EQ(model.vertices(), kFive);
-		EXPECT_EQ(model.curvatures(), before);
-		EXPECT_LT((model.gradient() - gradient).lpNorm<Eigen::Infinity>(), 1e-13);
-		EXPECT_TRUE(model.isCone(kFive[2]));
-		EXPECT_FALSE(model.isCone(to));
-	};
-	const double there = moved.energy();
-	EXPECT_FALSE(
-		model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there - 1e-9; }));
-	expectUnchanged();
-	EXPECT_FALSE(model.tryWithout(2, [&] {
-		EXPECT_EQ(model.vertices(), fewer);
-		EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
-		model.append({to});
-		return false;
-	}));
-	expectUnchanged();
-
-	EXPECT_TRUE(model.tryMove(2, {Vertex(51), Vertex(52), to}, [&](Vertex v, double energy) {
-		return v == to && energy < there + 1e-9;
-	}));
-	EXPECT_EQ(model.vertices(), elsewhere);
-	EXPECT_TRUE(model.isCone(to));
-	EXPECT_FALSE(model.isCone(kFive[2]));
-	EXPECT_LT((model.gradient() - moved.gradient()).lpNorm<Eigen::Infinity>(), 1e-9);
-	EXPECT_TRUE(model.tryWithout(2, [] { return true; }));
-	EXPECT_EQ(model.vertices(), fewer);
-	EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
-}
-
 /// At the lowest energy with bounds, more curvature changes it nowhere where a cone is below its bound, by as
 /// much everywhere if the sum is fixed, and lowers it where one is at its bound.
 TEST(ConeModel, CurvaturesAreTheBestWithNoneAboveTheBound)

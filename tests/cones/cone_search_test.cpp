@@ -274,5 +274,56 @@ TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
 	}
 }
 
+/// The steps of dropCostlyCones(), with what a cone saves from a fit without it.
+/// \param dropped receives the number of each cone at its turn
+std::vector<Vertex> withoutCostlyCones(ConeModel& model, SeamTree& tree, std::vector<int>& dropped)
+{
+	while (model.size() > model.minSize()) {
+		const double present = model.energy();
+		std::vector<double> loss;
+		for (int i = 0; i < model.size(); ++i)
+			model.tryWithout(i, [&] {
+				loss.push_back(kEnergyPrice * (present - model.energy()));
+				return false;
+			});
+		for (int i = 0; i < model.size(); ++i)
+			loss[at(i)] += kConePrice + kSeamPrice * tree.ownLength(model.vertex(i));
+		const auto dearest = std::max_element(loss.begin(), loss.end());
+		if (*dearest <= 0.0)
+			break;
+		dropped.push_back(static_cast<int>(dearest - loss.begin()));
+		tree.remove(model.vertex(dropped.back()));
+		model.remove(dropped.back());
+		model.fit();
+	}
+	return model.vertices();
+}
+
+/// Whatever number it has: every cone is the first one once.
+TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
+{
+	std::vector<int> dropped;
+	int kept = 0;
+	for (const int genus : {0, 1, 2}) {
+		std::vector<Vertex> cones;
+		for (int i = 0; i < 24; ++i)
+			cones.emplace_back(2 * i);
+		for (std::size_t turn = 0; turn < cones.size(); ++turn) {
+			std::rotate(cones.begin(), cones.begin() + 1, cones.end());
+			Search search(slab(genus)), other(slab(genus));
+			SeamTree tree(search.sites, cones), own(other.sites, cones);
+			EXPECT_TRUE(dropCostlyCones(search.with(cones).model, tree));
+			EXPECT_EQ(
+				search.model.vertices(), withoutCostlyCones(other.with(cones).model, own, dropped));
+			EXPECT_EQ(tree.length(), own.length());
+			EXPECT_FALSE(dropCostlyCones(search.model, tree)); // none is left
+			kept += search.model.size() > search.model.minSize();
+		}
+	}
+	EXPECT_GT(std::count(dropped.begin(), dropped.end(), 0), 10);
+	EXPECT_GT(std::count(dropped.begin(), dropped.end(), 1), 10);
+	EXPECT_GT(kept, 10);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -28,49 +28,6 @@ HalfedgeArray<double> anglesOf(const Triangulation& t, const EdgeArray<double>& 
 	return angles;
 }
 
-TEST(HomologyLoops, AreTwoForEachHandleAndOneForEachFurtherHole)
-{
-	for (int genus = 0; genus <= 3; ++genus) {
-		const SurfaceMesh closed = perforatedSlab(genus, 6);
-		const SurfaceMesh open = withoutStars(closed, {0, 100, 200});
-		const Triangulation &t = surfaceOf(closed).triangulation,
-							&o = surfaceOf(open).triangulation;
-		const std::size_t holes = o.boundaryLoops().size();
-		ASSERT_GT(holes, 1u);
-		EXPECT_EQ(homologyLoops(t, true).size(), at(2 * genus));
-		EXPECT_EQ(homologyLoops(o, false).size(), at(2 * genus));
-		EXPECT_EQ(homologyLoops(o, true).size(), at(2 * genus) + holes - 1);
-		for (const FaceLoop& loop : homologyLoops(o, true))
-			for (std::size_t i = 0; i < loop.size(); ++i) {
-				const Face next = o.face(loop[(i + 1) % loop.size()]);
-				EXPECT_TRUE(next.isValid());
-				EXPECT_EQ(o.face(loop[i].twin()), next);
-			}
-	}
-}
-
-TEST(HolonomyOfALoop, IsZeroOnAFlatTorus)
-{
-	// The torus as a grid of squares, whatever its image in space.
-	const EmbeddedSurface surface = surfaceOf(torus(3, 1, 9, 7));
-	const Triangulation& t = surface.triangulation;
-	EdgeArray<double> lengths(t.edgeCount(), 1.0);
-	for (const Edge e : t.edges()) {
-		const Point3& p = surface.positions[t.ends(e)[0]];
-		const Point3& q = surface.positions[t.ends(e)[1]];
-		const double round = std::atan2(p[1], p[0]) - std::atan2(q[1], q[0]);
-		const double rise =
-			std::abs(p[2] - q[2]) + std::abs(std::hypot(p[0], p[1]) - std::hypot(q[0], q[1]));
-		if (std::abs(std::remainder(round, 2 * kPi)) > 1e-9 && rise > 1e-9)
-			lengths[e] = std::sqrt(2.0); // a diagonal
-	}
-	ASSERT_EQ(3 * std::count(lengths.begin(), lengths.end(), 1.0), 2 * t.edgeCount());
-	for (const FaceLoop& loop : homologyLoops(t, false)) {
-		const double holonomy = sumOfAngles(turnedCorners(t, loop), anglesOf(t, lengths));
-		EXPECT_NEAR(std::remainder(holonomy, 2 * kPi), 0.0, 1e-12);
-	}
-}
-
 TEST(HolonomyOfALoop, IsThatBeforeIsometricFlips)
 {
 	// The loops keep their homotopy class off the vertices.

@@ -10,57 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace ricci::testing {
 namespace {
-
-/// A square patch with a groove along x = 0 and a ridge along x = 1.
-SurfaceMesh grooveAndRidge(int n)
-{
-	return grid(n, n, Ends::Open, Ends::Open, [n](int i, int j) {
-		const double x = 3.0 * i / n - 1.0, y = 3.0 * j / n;
-		const double z = 0.2 * std::exp(-30 * (x - 1) * (x - 1)) - 0.2 * std::exp(-30 * x * x);
-		return Point3{x, y, z};
-	});
-}
-
-TEST(SeamCost, IsLowInHollowsAndHighOnRidges)
-{
-	const SurfaceMesh mesh = grooveAndRidge(48);
-	const Packed p(mesh);
-	const VertexArray<double> exposed =
-		exposure(p.triangulation, p.lengths, VertexArray<Point3>(mesh.positions));
-	const auto column = [&](double x, double& low, double& high) {
-		low = 1.0;
-		high = 0.0;
-		for (const Vertex v : exposed.indices()) {
-			const Point3& q = mesh.positions[at(v)];
-			if (std::abs(q[0] - x) < 0.02 && q[1] > 0.5 && q[1] < 2.5) {
-				low = std::min(low, exposed[v]);
-				high = std::max(high, exposed[v]);
-			}
-		}
-	};
-	double grooveLow, grooveHigh, ridgeLow, ridgeHigh;
-	column(0.0, grooveLow, grooveHigh);
-	column(1.0, ridgeLow, ridgeHigh);
-	EXPECT_LT(grooveHigh, 0.25);
-	EXPECT_GT(ridgeLow, 0.75);
-	for (double x : exposed) {
-		EXPECT_GE(x, 0.0);
-		EXPECT_LE(x, 1.0);
-	}
-	// Turned over, hollows become ridges.
-	SurfaceMesh other = mesh;
-	for (Triangle& t : other.triangles)
-		std::swap(t[1], t[2]);
-	const Packed q(other);
-	const VertexArray<double> opposite =
-		exposure(q.triangulation, q.lengths, VertexArray<Point3>(other.positions));
-	for (const Vertex v : exposed.indices())
-		EXPECT_NEAR(exposed[v] + opposite[v], 1.0, 1e-9);
-}
 
 /// A prism over a star whose corners are at the distances R + d and R - d from its axis in turn: the
 /// sum of two eigenvectors of its Laplacian, which smoothing shrinks to 1 / (1 + t e) for the

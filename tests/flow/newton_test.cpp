@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace ricci::testing {
 namespace {
 
@@ -113,45 +111,6 @@ TEST(Newton, ReachesTheRoundingFloor)
 		// At the solution no step is needed.
 		EXPECT_EQ(solve.to(smoothedCurvature(mesh), upTo(1e-11)).result.iterations, 0);
 		EXPECT_TRUE(solve.result.converged);
-	}
-}
-
-TEST(Newton, SolvesADoubleOnHalfTheUnknowns)
-{
-	Random random(77);
-	for (const SurfaceMesh& surface :
-		 {shaken(rectangle(9, 7, 3.0, 2.0), 0.05, random), ring(1.0, 2.0, 24, 6)}) {
-		const IntrinsicMesh half = intrinsicMesh(surface);
-		const DoubleSurface d = doubleOf(half.triangulation);
-		EdgeArray<double> lengths;
-		for (const Edge e : d.edgeOf)
-			lengths.push_back(half.lengths[e]);
-		const Packed mesh(d.triangulation, lengths);
-		const VertexVector smoothed = smoothedCurvature(mesh);
-		VertexVector target = smoothed;
-		for (const Vertex v : d.mirror.indices())
-			target[v] = 0.5 * (smoothed[v] + smoothed[d.mirror[v]]);
-		Solve whole{mesh};
-		ASSERT_TRUE(whole.to(target, upTo(1e-12)).result.converged);
-
-		Map map = mesh.map();
-		NewtonSolver solver(map, whole.fixed, d.mirror);
-		VertexVector u = mesh.u();
-		const auto solve = [&] {
-			return solver.solve(u, target, upTo(1e-12), [](int, double) {}).converged;
-		};
-		ASSERT_TRUE(solve());
-		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
-		for (const Vertex v : d.mirror.indices())
-			EXPECT_EQ(u[v], u[d.mirror[v]]);
-		const double flops = solver.work().flops;
-		EXPECT_LT(flops, whole.solver.work().flops);
-		solver.dropSymmetry();
-		EXPECT_EQ(solver.work().flops, flops);
-		u = mesh.u();
-		EXPECT_TRUE(solve());
-		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
-		EXPECT_GT(solver.work().flops, flops);
 	}
 }
 
@@ -265,33 +224,6 @@ TEST(NewtonDescent, FindsTheMetricThatExistsFromFarOutsideOfAll)
 				EXPECT_TRUE(solve.from(moved(metric, spread, random)).to(target).result.converged);
 				EXPECT_LT(difference(solve.u, metric), 1e-5);
 			}
-}
-
-/// Circles that touch, I = 1 exactly: such edges cannot flip, and never have to.
-TEST(Newton, TangentCirclesNeverFlip)
-{
-	Random random(609);
-	for (int round = 0; round < 6; ++round) {
-		SCOPED_TRACE(round);
-		const Triangulation torus = glued(bumpyTorus(12, 9, random));
-		CirclePacking packing{torus, {}};
-		for (int e = 0; e < torus.edgeCount(); ++e)
-			packing.delta.push_back(random.index(3) == 0 ? 0.0 : random.real(0.0, 2.0));
-		VertexVector u(torus.vertexCount());
-		for (double& x : u)
-			x = random.real(-1.0, 1.0);
-		FlippingCurvatureMap<Euclidean> map(packing);
-		NewtonSolver solver(map, VertexArray<char>(torus.vertexCount(), 0));
-		const VertexVector flat = VertexVector::Zero(u.size());
-		EXPECT_TRUE(solver.solve(u, flat, upTo(1e-10), [](int, double) {}).converged);
-		EXPECT_TRUE(u.allFinite());
-		EXPECT_EQ(map.brokenTriangles(), 0);
-		for (double delta : map.delta())
-			EXPECT_TRUE(std::isfinite(delta) && delta >= 0.0);
-		const MetricMeasure measure(map.triangulation(), map.lengths());
-		for (long double k : measure.curvature)
-			EXPECT_LT(std::abs(k), 1e-9L);
-	}
 }
 
 } // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
 #include <ricci/hyperbolic/finish_disks.h>
 #include <ricci/measure/map_check.h>
@@ -8,7 +7,6 @@
 
 #include <cmath>
 #include <complex>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -43,28 +41,6 @@ Parametrization band(int n, double step, double halfWidth)
 	mesh.face = mesh.chart;
 	map.charts.emplace_back();
 	return map;
-}
-
-int flippedInFloats(const FlatMesh& mesh)
-{
-	int flipped = 0;
-	for (const int f : mesh.points.indices()) {
-		Triangle2 p = mesh.at(f);
-		for (Point2& corner : p)
-			for (double& x : corner)
-				x = static_cast<float>(x);
-		flipped += !(doubledArea(p[0], p[1], p[2]) > 0.0);
-	}
-	return flipped;
-}
-
-TEST(DivideDisks, LeavesWhatFloatsHold)
-{
-	Parametrization map = band(40, 0.2, 0.1);
-	const Array<Point2> before = map.mesh.place;
-	EXPECT_FALSE(divideDisks(map));
-	EXPECT_EQ(map.charts.size(), 1U);
-	EXPECT_EQ(map.mesh.place.values(), before.values());
 }
 
 TEST(DivideDisks, TellsWhereThereAreTooManyDisks)
@@ -115,20 +91,6 @@ TEST(DivideDisks, MovesFarPartsByIsometries)
 	EXPECT_EQ(map.report.overlapCuts, static_cast<int>(cuts.edges.size()));
 	EXPECT_EQ(cuts.edges.size(), map.charts.size() - 1);
 	EXPECT_DOUBLE_EQ(map.report.seamLength, cuts.length);
-}
-
-TEST(FinishDisks, HoldsEveryTriangle)
-{
-	Parametrization map = band(320, 0.2, 0.1);
-	EXPECT_TRUE(finishDisks({}, map));
-	placeDisks(map);
-	EXPECT_GT(map.charts.size(), 1U);
-	EXPECT_EQ(flippedInFloats(map.mesh), 0);
-	for (const int f : map.mesh.points.indices())
-		for (const Point2& p : map.mesh.at(f)) {
-			const Box2& square = map.charts[positionOf(map.mesh.chart[f])].box;
-			EXPECT_LT(distance(p, square.centre()), 0.5 * square.width());
-		}
 }
 
 } // namespace

@@ -99,21 +99,6 @@ TEST(Tiling, HasEveryCopyOfTheOctagonOnce)
 	EXPECT_EQ(tiling(sides, 0, 1000).deck.size(), 1u);
 }
 
-/// A rotation of order n about a point: the ways round it both ways meet on the other side.
-TEST(Tiling, RoundAConeClosesUp)
-{
-	const DiskIsometry toCone = DiskIsometry::translationTo({0.4, 0.2});
-	for (int n : {3, 4, 5, 8}) {
-		const DiskIsometry turn = toCone * DiskIsometry::rotation(2 * kPi / n) * toCone.inverse();
-		const Tiling tiles = tiling(withInverses({turn}), 10, 1000);
-		EXPECT_TRUE(tiles.complete);
-		ASSERT_EQ(static_cast<int>(tiles.deck.size()), n);
-		expectDifferent(tiles, 0.1);
-		for (std::size_t i = 0; i < tiles.ring.size(); ++i)
-			EXPECT_EQ(tiles.ring[i], static_cast<int>(i + 1) / 2);
-	}
-}
-
 TEST(Tiling, EndsWhereTheDiskOrTheCountDoes)
 {
 	const auto sides = withInverses({along(0.7, 1.25)});

@@ -81,21 +81,6 @@ void expectValid(const FlippedFlow& flow, const CutGraph& cut, const SurfaceLayo
 	EXPECT_GE(seen, 3 * flow.base().faceCount());
 }
 
-TEST(CornerLayout, IsThatOfTheOverlayAlongAnyCut)
-{
-	int doubled = 0;
-	for (const std::uint64_t seed : {1u, 2u}) {
-		Random random(seed);
-		for (const FlippedFlow& flow : flows(seed)) {
-			EXPECT_GT(flow.result.flipCount(), 0);
-			for (const CutGraph& cut : {flow.cut(), flow.cutAnywhere(random)})
-				expectValid(flow, cut, flow.refinement(cut));
-			doubled += flow.result.doubled;
-		}
-	}
-	EXPECT_GT(doubled, 1);
-}
-
 /// The support of a point on an edge of the input; empty elsewhere.
 std::vector<int> inputEdgeAt(const SurfacePoint& x)
 {

@@ -2,23 +2,19 @@
 #include "support/bolza.h"
 #include "support/complex.h"
 #include "support/flipped_flow.h"
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/wide.h"
 
 #include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/metric/conformal_flip.h>
 #include <ricci/metric/geometry.h>
 #include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -224,93 +220,6 @@ TEST(HyperbolicLayout, OrientationIsThatOfTheGeodesicTriangle)
 	}
 	EXPECT_GT(clear, 900);
 	EXPECT_EQ(hyperbolicOrientation(0.0, 0.25, 0.5), 0);
-}
-
-/// Where an edge is just about to flip both diagonals of its quad are geodesics of one metric, and
-/// the crossing is where they meet.
-TEST(HyperbolicLayout, CrossingsAreWhereGeodesicsMeet)
-{
-	Random random(620);
-	int met = 0;
-	for (int trial = 0; trial < 200; ++trial) {
-		SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
-		for (Point3& p : mesh.positions)
-			for (std::size_t k = 0; k < 2; ++k)
-				p[k] += random.real(-0.2, 0.2);
-		const Triangulation t = glued(mesh);
-		const EdgeArray<double> lengths = edgeLengths(t, mesh);
-		VertexArray<double> radii = initialRadii(t, lengths);
-		for (double& r : radii)
-			r *= 0.5;
-		const CirclePacking packing{t, inversiveDistancesLessOne(t, lengths, radii)};
-		Edge e(0);
-		while (!t.isFlippable(e))
-			e = Edge(e.number() + 1);
-		// Circles of hyperbolic size; one of those beside the diagonal is made to fit.
-		const Vertex apex = t.apex(e.halfedge());
-		VertexVector u(4);
-		for (const Vertex v : t.vertices())
-			u[v] = std::log(radii[v]) + random.real(-0.3, 0.3);
-		GeometricCurvatureMap<Hyperbolic> before(packing);
-		const auto weightAt = [&](double x) {
-			u[apex] = x;
-			before.evaluate(u);
-			return before.brokenTriangles() > 0 ? -1.0 : before.weights()[e];
-		};
-		double low = u[apex] - 1.5, high = std::min(u[apex] + 1.5, -0.05);
-		if (weightAt(low) * weightAt(high) > 0.0)
-			continue;
-		const bool rising = weightAt(high) > 0.0;
-		for (int step = 0; step < 80; ++step) {
-			const double middle = 0.5 * (low + high);
-			((weightAt(middle) > 0.0) == rising ? high : low) = middle;
-		}
-		if (std::abs(weightAt(low)) > 1e-12)
-			continue; // a triangle breaks there
-		CirclePacking flipped = packing;
-		flipped.delta[e] = flippedDelta(t, packing.delta, e);
-		flipped.triangulation.flip(e);
-		const auto after = std::make_shared<GeometricCurvatureMap<Hyperbolic>>(flipped);
-		after->evaluate(u);
-		ASSERT_EQ(after->brokenTriangles(), 0);
-		++met;
-		FlowDomain domain;
-		domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
-		domain.onHole.assign(t.vertexCount(), 0);
-		FlowResult flow;
-		flow.target.background = Background::HyperbolicPlane;
-		flow.metric = after;
-		flow.u = u;
-		flow.input = t;
-		flow.start.mesh = {t, lengths};
-		flow.start.delta = packing.delta;
-		flow.start.radii = radii;
-		flow.flips = {e};
-		const FlatMesh r = layOutRefinement(
-							   domain,
-							   flow,
-							   divideStartTriangles(flow, domain.surface.triangulation.faceCount()),
-							   EdgeArray<char>(5, 0))
-							   .refinement;
-		ASSERT_EQ(r.source.size(), 5);
-		ASSERT_EQ(r.size(), 4);
-		std::array<Complex, 5> place;
-		for (int c = 0; c < 12; ++c)
-			place[at(r.vertices[Corner(c)])] = asComplex(r.at(Corner(c)));
-		for (int diagonal : {0, 1}) {
-			const auto ends = (diagonal == 0 ? t : after->triangulation()).ends(e);
-			const Complex from = place[at(ends[0])], to = place[at(ends[1])];
-			// To the root of what rounding leaves of the straight line's length.
-			EXPECT_NEAR(static_cast<double>(angleInDisk(place[4], from, to)), kPi, 1e-6);
-			const double length = diagonal == 0 ? before.lengths()[e] : after->lengths()[e];
-			EXPECT_NEAR(
-				static_cast<double>(distanceInDisk(place[4], from) + distanceInDisk(place[4], to)) /
-					length,
-				1.0,
-				1e-11);
-		}
-	}
-	EXPECT_GT(met, 30);
 }
 
 } // namespace

@@ -271,20 +271,6 @@ Parametrization strip(double angle)
 	})));
 }
 
-TEST(OverlapsInFloats, FindsThoseOfAChartWithItselfAndOfTwoCharts)
-{
-	EXPECT_EQ(overlapsOf(strip(1.5 * kPi)), (Counts{0, 0}));
-	// The strip is as wide as it moves out in a turn. What lies beyond that touches what it passes; each of
-	// the triangles at an end that goes on lies on one of the beginning, and a ring has straight sides.
-	EXPECT_GT(overlapsOf(strip(2.3 * kPi))[0], 0);
-	EXPECT_EQ(overlapsOf(strip(2.3 * kPi))[1], 1);
-	EXPECT_EQ(overlapsOf(squares({{0, 0}, {1, 0}, {0, 1}})), (Counts{0, 0})); // they touch
-	EXPECT_EQ(overlapsOf(squares({{0, 0}, {2, 0}})), (Counts{0, 0}));
-	// The lower right triangle of the first, and the upper left one of the second.
-	EXPECT_EQ(overlapsOf(squares({{0, 0}, {0.9, -0.8}, {5, 5}})), (Counts{2, 2}));
-	EXPECT_EQ(overlapsOf(squares({{0, 0}, {0, 0}})), (Counts{4, 2})); // one on the other
-}
-
 /// Charts that are a step of a double apart may be stored at one place, and overlap by what is stored.
 TEST(OverlapsInFloats, GoesByTheCoordinatesAsFloats)
 {

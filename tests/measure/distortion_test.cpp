@@ -15,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -100,24 +99,6 @@ TEST(Distortion, OfTrianglesWithoutArea)
 	}
 }
 
-TEST(Distortion, ValuesAreThoseOfTheVerticesThatHaveFaces)
-{
-	SurfaceMesh mesh = rectangle(3, 3, 1, 1);
-	const std::size_t vertices = mesh.positions.size();
-	mesh.positions.push_back({9, 9, 9}); // in no face
-	std::vector<Plane> plane = flatMesh(mesh).corners().values();
-	for (Plane& p : plane)
-		for (Point2& q : p)
-			q[0] *= 1.5;
-	const Distortion report = measured(mesh, plane);
-	EXPECT_EQ(report.qcValues.size(), vertices);
-	for (const double qc : report.qcValues)
-		EXPECT_NEAR(qc, 1.5, 1e-12);
-	ASSERT_EQ(report.areaFactors.size(), mesh.triangles.size());
-	for (const double factor : report.areaFactors)
-		EXPECT_NEAR(factor, 0.0, 1e-12);
-}
-
 TEST(Distortion, ThePercentileLeavesItsShareOfTheValuesBelow)
 {
 	std::vector<double> values(1000);
@@ -127,47 +108,6 @@ TEST(Distortion, ThePercentileLeavesItsShareOfTheValuesBelow)
 	EXPECT_EQ(percentile(values, 1.0), 1000.0);
 	EXPECT_EQ(percentile({7.0}, 0.01), 7.0);
 	EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
-}
-
-/// Shares p and 1 - p of the area; the second part grows by q. The factors relative to the total
-/// are 1 / (p + q - p q) and q times that.
-TEST(AreaDistortion, OfTwoScalesHasAClosedForm)
-{
-	for (const double p : {0.2, 0.5, 0.9})
-		for (const double q : {0.1, 1.0, 3.0, 1e6}) {
-			const double first = 1.0 / (p + (1 - p) * q), second = q * first;
-			const AreaDistortion a = areaDistortion({3 * p, 3 * (1 - p)}, {p, (1 - p) * q});
-			EXPECT_NEAR(
-				a.mean / (p * std::max(first, 1 / first) + (1 - p) * std::max(second, 1 / second)),
-				1.0,
-				1e-13);
-			EXPECT_NEAR(a.spread, std::sqrt(p * (1 - p)) * std::abs(std::log(q)), 1e-12);
-			// A common scale changes nothing, parts without area are left out.
-			const AreaDistortion b =
-				areaDistortion({p, 0.0, 1 - p, 7.0}, {5 * p, 2.0, 5 * (1 - p) * q, 0.0});
-			EXPECT_NEAR(b.mean / a.mean, 1.0, 1e-13);
-			EXPECT_NEAR(b.spread, a.spread, 1e-12);
-		}
-	// A share that no number holds is as good as none.
-	const AreaDistortion c = areaDistortion({10.0, 5e-324, 10.0}, {1.0, 1e-6, 3.0});
-	EXPECT_NEAR(c.mean, 0.5 * 2.0 + 0.5 * 1.5, 1e-5);
-}
-
-/// Corners that differ by less than a unit in the last place of a float, and one that does not.
-TEST(Distortion, FacesThatRoundingToFloatFlips)
-{
-	const double ulp = 0x1p-24;
-	const Plane thin{Point2{0.5, 0.25}, {0.5 + 0.3 * ulp, 0.25}, {0.25, 0.75}},
-		wide{Point2{0.5, 0.25}, {0.5 + 4 * ulp, 0.25}, {0.25, 0.75}},
-		flipped{thin[0], thin[2], thin[1]};
-	const auto count = [&](const std::vector<Plane>& plane) {
-		const SurfaceMesh mesh{std::vector<Point3>(9), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
-		const FlippedCount flippedCount = countFlipped(flatMesh(mesh, plane));
-		return std::make_pair(flippedCount.faces, flippedCount.byRounding);
-	};
-	EXPECT_EQ(count({thin, wide, flipped}), std::make_pair(1, 1));
-	EXPECT_EQ(count({thin, wide, thin}), std::make_pair(0, 2));
-	EXPECT_EQ(count({flipped, flipped, flipped}), std::make_pair(3, 0));
 }
 
 /// Two corners near the circle and one between their geodesic, which bends towards 0, and their

@@ -121,6 +121,7 @@ TEST(ReportNumbers, AreThoseOfTheMap)
 			for (const Corner side : cornersOf(f))
 				sides[std::minmax(map.mesh.vertices[side], map.mesh.vertices[side.next()])]
 					.push_back(side);
+		int edges = 0;
 		double length = 0.0, area = 0.0;
 		for (const auto& [ends, both] : sides) {
 			if (both.size() != 2)
@@ -132,7 +133,12 @@ TEST(ReportNumbers, AreThoseOfTheMap)
 			if (points[both[0]] == points[a] && points[both[0].next()] == points[b])
 				continue;
 			length += map.mesh.lengths[both[0].face()][both[0].index()];
-			++seams;
+			++edges;
+		}
+		seams += edges;
+		if (c.options.output ==
+			OutputTriangulation::KeepMesh) { // else edges of the mesh are counted
+			EXPECT_EQ(r.seamEdges + r.chosenSeamEdges + r.overlapCuts, edges);
 		}
 		for (const double x : found.area)
 			area += x;

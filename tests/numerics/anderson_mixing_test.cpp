@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 namespace ricci::testing {
@@ -52,45 +51,6 @@ TEST(AndersonMixing, EndsAfterOneStepMoreThanUnknownsOnAnyAffineMap)
 		EXPECT_LT(map.error(x), 1e-6 * (1.0 + map.error(std::vector<double>(x.size(), 0.0))));
 		mixing.restart();
 		EXPECT_EQ(mixing.next(x, map(x)), map(x));
-	}
-}
-
-TEST(AndersonMixing, WithoutDepthIsThePlainIteration)
-{
-	Random random(302);
-	const AffineMap map(4, 0.9, random);
-	AndersonMixing mixing(0);
-	std::vector<double> x(4, 0.0);
-	for (int step = 0; step < 5; ++step) {
-		const std::vector<double> image = map(x);
-		x = mixing.next(x, image);
-		EXPECT_EQ(x, image);
-	}
-}
-
-TEST(AndersonMixing, OneStepBackMakesTheResidualShortest)
-{
-	Random random(303);
-	const AffineMap map(3, 0.8, random);
-	const std::vector<double> first{0.3, -0.2, 0.5};
-	AndersonMixing mixing(1);
-	const std::vector<double> second = mixing.next(first, map(first));
-	const std::vector<double> third = mixing.next(second, map(second));
-	// The map is affine: third is the image of the affine combination whose residual is shortest.
-	const auto residual = [&](double share) {
-		std::vector<double> x(3);
-		for (std::size_t i = 0; i < 3; ++i)
-			x[i] = second[i] + share * (first[i] - second[i]);
-		const std::vector<double> y = map(x);
-		return std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]);
-	};
-	double best = -2.0;
-	for (double share = -2.0; share < 2.0; share += 1e-4)
-		if (residual(share) < residual(best))
-			best = share;
-	for (std::size_t i = 0; i < 3; ++i) {
-		const double combined = map(second)[i] + best * (map(first)[i] - map(second)[i]);
-		EXPECT_NEAR(third[i], combined, 1e-3);
 	}
 }
 

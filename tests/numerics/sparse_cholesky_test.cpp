@@ -320,21 +320,6 @@ TEST(SparseCholesky, EliminatesWithoutFill)
 	EXPECT_EQ(solver.work().analyses, analyses + 1);
 }
 
-TEST(SparseCholesky, SolvesWithAndWithoutNestedDissection)
-{
-	// From one unknown on: METIS, or what takes its place where there is none.
-	Random random(68);
-	SparseCholesky dissected(1), usual;
-	const int n = 300;
-	const SparseCholesky::Matrix matrix = laplacian(n, 0.5, random);
-	const Eigen::VectorXd b = randomVector(n, random);
-	ASSERT_TRUE(dissected.factorize(matrix));
-	ASSERT_TRUE(usual.factorize(matrix));
-	EXPECT_EQ(dissected.work().orderings, 1);
-	EXPECT_EQ(usual.work().orderings, 1);
-	EXPECT_LT((dissected.solve(b) - usual.solve(b)).lpNorm<Eigen::Infinity>(), 1e-12);
-}
-
 TEST(SparseCholesky, FactorsMayHaveMoreEntriesThanIntCanTell)
 {
 	// Half of the unknowns of a random graph end as neighbours of each other.

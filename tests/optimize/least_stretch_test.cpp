@@ -182,29 +182,5 @@ TEST(LeastStretch, ATriangleThatIsFlippedDoesNotCount)
 	EXPECT_LE(notCounterClockwise(flat), flipped);
 }
 
-/// Both sides of a seam move by themselves: two halves that do not fit come out as two isometries.
-TEST(LeastStretch, LetsSeamsGo)
-{
-	FlatMesh flat = square();
-	Array<int> copy(flat.place.size(), -1); // of points in the middle column, for the right half
-	for (int j = 0; j <= kSide; ++j) {
-		copy[vertexAt(kSide / 2, j)] = flat.place.size();
-		flat.place.push_back(flat.place[vertexAt(kSide / 2, j)]);
-	}
-	for (const int f : flat.points.indices()) {
-		double right = 0.0;
-		for (const Point2& p : flat.at(f))
-			right += p[0] - kSide / 2;
-		if (right > 0.0)
-			for (int& p : flat.points[f])
-				p = copy[p] >= 0 ? copy[p] : p;
-	}
-	for (const int j : copy.indices())
-		if (copy[j] >= 0)
-			flat.place[copy[j]][0] += 0.2 * (j % 3);
-	leastStretch(flat);
-	EXPECT_NEAR(energyOf(flat), 4.0, 1e-10);
-}
-
 } // namespace
 } // namespace ricci::testing

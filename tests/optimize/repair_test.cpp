@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What the finish repairs.
 #include "flat_maps.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/points.h>
+#include <ricci/optimize/finish.h>
 #include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>
@@ -12,7 +14,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <cstdlib>
 
 namespace ricci::testing {
 namespace {
@@ -27,16 +28,6 @@ Repair mend(FlatMesh& flat, const Validity& wanted)
 	WorkLimit limit(flat.points.size());
 	return repairInStages(
 		flat, [](int) { return false; }, {RestShapes::OfSurface, wanted}, limit);
-}
-
-TEST(Repair, LeavesAValidDrawingAlone)
-{
-	FlatMesh flat = square();
-	const Array<Point2> before = flat.place;
-	const Repair result = mend(flat, validity());
-	EXPECT_EQ(result.bad, 0);
-	EXPECT_EQ(result.movedCount(), 0);
-	EXPECT_EQ(flat.place.values(), before.values());
 }
 
 TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
@@ -59,37 +50,6 @@ TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 			EXPECT_EQ(isSame, result.moved[p] == 0) << p;
 		}
 	}
-}
-
-TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
-{
-	FlatMesh flat = square();
-	const int v = vertexAt(3, 3);
-	flat.place[v] = {4.5, 3.2};
-	const Array<Point2> before = flat.place;
-	mend(flat, validity());
-	EXPECT_TRUE(badTriangles(flat, validity()).empty());
-	for (const int p : flat.place.indices()) {
-		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
-		EXPECT_TRUE(!isFar || flat.place[p] == before[p]) << p;
-	}
-}
-
-TEST(Repair, ValidMeansValidInFloatsWhereFloatsAreStored)
-{
-	FlatMesh flat = square();
-	constexpr double kInfinity = 0x1p20; // where a float's step is an eighth
-	for (const int p : flat.place.indices())
-		flat.place[p] = {flat.place[p][0] + kInfinity, flat.place[p][1] + kInfinity};
-	const int v = vertexAt(6, 6);
-	flat.place[v][0] = kInfinity + 6.97; // rounds to its neighbour's
-	const Validity floats{0.2, 0.3, true};
-	const Validity doubles{0.001, 0.3, false};
-	EXPECT_TRUE(badTriangles(flat, doubles).empty());
-	ASSERT_FALSE(badTriangles(flat, floats).empty());
-	const Repair result = mend(flat, floats);
-	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(flat, floats).empty());
 }
 
 /// Decimal fractions on one line, which as doubles mostly are on none, and next to it.
@@ -155,6 +115,69 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 	EXPECT_GE(half.left, all.left);
 	EXPECT_EQ(none.work, 0);
 	EXPECT_GT(none.left, all.left);
+}
+
+FinishCounts finishSquare(FlatMesh& flat, bool freeBoundary, Finish finish)
+{
+	const VertexArray<char> none(flat.vertexCount(), 0);
+	return finishInPlane(flat, none, freeBoundary, {}, finish, true);
+}
+
+/// Energy at a scale that does not change, and a twentieth of the length of the sides between triangles that are
+/// counter-clockwise and those that are not, which are cut off.
+double costWithCuts(const FlatMesh& flat)
+{
+	double energy = 0.0, cut = 0.0, area = 0.0;
+	const FlatMesh surface = square();
+	for (const int f : flat.points.indices()) {
+		const auto side = [&](const FlatMesh& mesh, std::size_t k) {
+			return asComplex(mesh.at(f)[k]) - asComplex(mesh.at(f)[0]);
+		};
+		// z -> alpha z + beta conj(z) has the singular values | |alpha| +- |beta| |.
+		const std::complex<double> a = side(surface, 1), b = side(surface, 2);
+		const std::complex<double> c = side(flat, 1), d = side(flat, 2);
+		const std::complex<double> size = a * std::conj(b) - std::conj(a) * b;
+		const double alpha = std::abs((c * std::conj(b) - d * std::conj(a)) / size);
+		const double beta = std::abs((a * d - b * c) / size);
+		const double sum = (alpha + beta) * (alpha + beta),
+					 difference = (alpha - beta) * (alpha - beta);
+		energy += 0.25 * std::abs(size) * (sum + difference + 1.0 / sum + 1.0 / difference);
+		area += 0.25 * std::abs(size);
+		for (const Corner own : cornersOf(f))
+			if (const Corner other = flat.joined(own); other.isValid() &&
+													   orientation(flat.at(f)) <= 0 &&
+													   orientation(flat.at(other.face())) > 0)
+				cut += flat.lengths[own];
+	}
+	return energy / area + 0.05 * cut / std::sqrt(area);
+}
+
+/// Where flipped triangles may be cut off, they are mended only if that costs less; else at any price.
+TEST(FinishInPlane, RepairsWhatIsCheaperThanACut)
+{
+	Random random(7);
+	int mended = 0, left = 0;
+	for (int i = 0; i < 40; ++i) {
+		const bool movesBorder = i % 2 > 0;
+		const double cells = movesBorder ? 2.0 : 0.8;
+		FlatMesh flat = square();
+		for (const int v : flat.place.indices())
+			if (movesBorder || isInside(v))
+				flat.place[v] =
+					flat.place[v] + Point2{random.real(-cells, cells), random.real(-cells, cells)};
+		FlatMesh kept = flat;
+		const double before = costWithCuts(flat);
+		const int flipped = notCounterClockwise(flat);
+		finishSquare(flat, false, Finish::Repair);
+		mended += flipped - notCounterClockwise(flat);
+		left += notCounterClockwise(flat);
+		EXPECT_LE(costWithCuts(flat), before * (1.0 + 1e-9));
+		const VertexArray<char> none(kept.vertexCount(), 0);
+		finishInPlane(kept, none, false, {}, Finish::Repair, false);
+		EXPECT_LE(notCounterClockwise(kept), movesBorder ? notCounterClockwise(flat) : 0);
+	}
+	EXPECT_GT(mended, 40);
+	EXPECT_GT(left, 0);
 }
 
 } // namespace

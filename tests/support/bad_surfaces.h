@@ -61,16 +61,6 @@ inline SurfaceMesh pinchedSphere()
 	return mesh;
 }
 
-/// A tube of four strips round a square whose opposite edges 0-1 are one.
-inline SurfaceMesh tubePinchedAlongAnEdge()
-{
-	SurfaceMesh mesh = torus(3, 1, 6, 4);
-	for (Triangle& t : mesh.triangles)
-		for (int& v : t)
-			v = v == 12 ? 0 : v == 13 ? 1 : v;
-	return mesh;
-}
-
 /// Two tetrahedra that touch at a vertex.
 inline SurfaceMesh touchingTetrahedra()
 {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "covered_twice.h"
-
+#include "flat_map.h"
 #include "shapes.h"
 
 #include <ricci/base/box_tree.h>

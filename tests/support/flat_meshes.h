@@ -61,14 +61,6 @@ inline Distortion measured(const SurfaceMesh& mesh, const std::vector<Triangle2>
 		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane));
 }
 
-inline int flippedIn(const FlatMesh& mesh)
-{
-	int count = 0;
-	for (const Triangle2& p : mesh.corners())
-		count += doubledArea(p[0], p[1], p[2]) <= 0.0;
-	return count;
-}
-
 } // namespace ricci::testing
 
 #endif

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
 // tabulators between the columns; the last column is the refusal, if there is one.
-#include "covered_twice.h"
 #include "flat_map.h"
 #include "listener.h"
 #include "mesh_file.h"
-#include "obj_writer.h"
 #include "vcg_mesh.h"
 
 #include <ricci/mesh/component.h>

@@ -3,8 +3,8 @@
 
 #include "support/listener.h"
 
-#include <ricci/texture/picture.h>
 #include <ricci/texture/old_charts.h>
+#include <ricci/texture/picture.h>
 
 #include <gtest/gtest.h>
 
@@ -33,94 +33,6 @@ struct Old
 
 	std::size_t count() const { return std::set<int>(charts.begin(), charts.end()).size(); }
 };
-
-TEST(OldCharts, AreJoinedByEqualCoordinates)
-{
-	Random random(733);
-	const Square square(6);
-	const Old whole(square, square.place);
-	EXPECT_EQ(whole.count(), 1u);
-	// The right half moves away, or stays, but in another picture.
-	for (const bool moves : {false, true}) {
-		std::vector<TexturedFace> faces = whole.faces;
-		for (TexturedFace& face : faces) {
-			if (std::min({face.uv[0][0], face.uv[1][0], face.uv[2][0]}) < 0.49)
-				continue;
-			face.picture = moves ? 0 : 1;
-			for (Point2& p : face.uv)
-				p[0] += moves ? 0.25 : 0.0;
-		}
-		EXPECT_EQ(Old(faces).count(), 2u);
-	}
-	EXPECT_EQ(Old(Square(5), shatteredAtlas(50, random)).count(), 50u); // they touch
-}
-
-/// The diagonals of the cells of 20 x 20 run through middles of texels.
-TEST(OldOwners, KnowTheTexelsOfEachChart)
-{
-	Random random(734);
-	const Old old(Square(4), shatteredAtlas(32, random));
-	const int size = 80;
-	const OldOwners owners(old.faces, old.charts, old.all, size, size);
-	for (int y = 0; y < size; ++y)
-		for (int x = 0; x < size; ++x) {
-			int count = 0;
-			for (std::size_t f = 0; f < old.faces.size(); ++f) {
-				if (!owners.of(old.charts[f]).has(static_cast<std::size_t>(y * size + x)))
-					continue;
-				++count;
-				const Point3 w =
-					nearestInTriangle(oldTexels(old.faces[f], size, size), {x + 0.5, y + 0.5});
-				EXPECT_GT(std::min({w[0], w[1], w[2]}), 0.0);
-			}
-			EXPECT_EQ(count, x % 20 == 19 - y % 20 ? 0 : 1);
-		}
-}
-
-TEST(OldOwners, KnowTheBlocksOfEachChart)
-{
-	Random random(735);
-	const Old old(Square(4), shatteredAtlas(32, random));
-	const Blocks blocks{83, 57};
-	OldOwners owners(old.faces, old.charts, old.all, blocks.width, blocks.height);
-	owners.addLevels(blocks.lastLevel());
-	int whole = 0, parts = 0;
-	for (const int chart : old.charts)
-		for (int level = 0; level <= blocks.lastLevel(); ++level)
-			blocks.forLevel(level, [&](const Block& b) {
-				const int side = 1 << level;
-				int all = 0, own = 0;
-				for (int y = b.y * side; y < std::min((b.y + 1) * side, blocks.height); ++y)
-					for (int x = b.x * side; x < std::min((b.x + 1) * side, blocks.width); ++x) {
-						++all;
-						own += owners.of(chart).has(blocks.index({0, x, y}));
-					}
-				ASSERT_EQ(blocks.texels(b), all);
-				const OldOwners::Share share = owners.of(chart).of(level, blocks.index(b));
-				if (share == OldOwners::Share::All)
-					EXPECT_EQ(own, all);
-				else if (share == OldOwners::Share::None)
-					EXPECT_EQ(own, 0);
-				else // what overlaps is own and may look like a part
-					EXPECT_LT(own, all);
-				parts += share == OldOwners::Share::Part;
-				whole += level > 0 && own == all;
-			});
-	EXPECT_GT(whole, 100);
-	EXPECT_GT(parts, 100);
-}
-
-TEST(OldOwners, ShareWhatOverlaps)
-{
-	const Square square(1);
-	std::vector<TexturedFace> faces = carriedMesh(square, square.place, square.place).faces;
-	faces[1].uv = {Point2{1, 0}, Point2{0, 0}, Point2{1, 1}}; // on the first one, turned over
-	faces[1].vertices = {4, 5, 6};
-	const Old old(faces);
-	const OldOwners owners(old.faces, old.charts, old.all, 10, 10);
-	for (const int chart : old.charts)
-		EXPECT_TRUE(owners.of(chart).has(6 * 10 + 7));
-}
 
 /// A thousand tiles, each with the whole picture in two triangles of one chart, in turns mirrored.
 TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
@@ -152,19 +64,6 @@ TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 			ASSERT_TRUE(owners.of(chart).has(texel));
 			ASSERT_FALSE(owners.of(chart).repeats());
 		}
-}
-
-TEST(OldTexels, StartInTheFirstPicture)
-{
-	TexturedFace face;
-	face.uv = {Point2{-3.75, 7.25}, Point2{-3.25, 7.25}, Point2{-3.75, 7.5}};
-	const Triangle2 t = oldTexels(face, 100, 200);
-	EXPECT_DOUBLE_EQ(t[0][0], 25.0);
-	EXPECT_DOUBLE_EQ(t[0][1], 150.0);
-	EXPECT_DOUBLE_EQ(t[2][1], 100.0);
-	face.uv[1][0] = std::numeric_limits<double>::quiet_NaN();
-	for (const Point2& p : oldTexels(face, 100, 200))
-		EXPECT_TRUE(std::isfinite(p[0]));
 }
 
 /// By trying all; with one thread and with several.
