@@ -29,12 +29,15 @@ std::string quoted(const fs::path& path)
 }
 
 /// A Python that can run the checker, or nothing.
-std::string pythonWithNumpy()
+const std::string& pythonWithNumpy()
 {
-	for (const std::string& python : {std::string(RICCI_VENV_PYTHON), std::string("python3")})
-		if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
-			return python;
-	return {};
+	static const std::string found = [] {
+		for (const std::string& python : {std::string(RICCI_VENV_PYTHON), std::string("python3")})
+			if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
+				return python;
+		return std::string();
+	}();
+	return found;
 }
 
 /// By how much a distortion may differ from the paper's Table 1, relative to what it has above 1: the meshes
@@ -57,7 +60,7 @@ protected:
 	/// Has the independent checker, if it can run, judge the doubles of the core.
 	void expectVerified(const FlatResult& flat, const std::string& name)
 	{
-		const std::string python = pythonWithNumpy();
+		const std::string& python = pythonWithNumpy();
 		if (python.empty() || !fs::exists(kChecker))
 			return; // told by CheckerCanRun
 		const fs::path obj =
