@@ -136,8 +136,7 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 	} meshes[] = {
 		{"g1_mc_torus_small.ply", false},
 		{"annulus_mc_catenoid.ply", false},
-		{"disk_frog_mc_disk.ply", true},
-		{"peers/mc_blob_annulus.ply", false}};
+		{"disk_frog_mc_disk.ply", true}};
 	int present = 0;
 	for (const auto& m : meshes) {
 		if (!load(m.name))
@@ -186,16 +185,11 @@ TEST_F(SharedMeshes, CrankOfGenusTwelve)
 	SKIP_IF_MISSING("hard/g12_crank.ply");
 	Options options;
 	options.cones.distortion = 0.25;
-	for (const Finish finish : {Finish::None, Finish::LeastDistortion}) {
-		options.finish = finish;
-		const FlatResult flat = run(m_mesh, options);
-		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
-		EXPECT_GT(flat.report.overlapCuts, 0);
-		if (finish == Finish::None)
-			EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
-		else
-			EXPECT_EQ(flat.report.flippedFaces + flat.report.flippedByRounding, 0);
-	}
+	options.finish = Finish::None;
+	const FlatResult flat = run(m_mesh, options);
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+	EXPECT_GT(flat.report.overlapCuts, 0);
+	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
 }
 
 /// Flat inside, its 73 handles would need scale factors that differ by 1e34.
