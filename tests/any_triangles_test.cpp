@@ -200,58 +200,6 @@ TEST(AnyTriangles, PuncturedKleinBottlesKeepTheirHyperbolicArea)
 	}
 }
 
-/// Faces of equal vertices are sheets of their own: each is drawn like the mesh alone, one with the
-/// opposite order as its mirror image.
-TEST(AnyTriangles, ADoubledMeshIsDrawnTwice)
-{
-	const SurfaceMesh single = bumpySheet(6);
-	const std::size_t n = single.triangles.size();
-	Options params = unscaled();
-	params.finish = Finish::Repair;
-	const auto alone = compute(single, params);
-	double extent = 0.0;
-	const std::vector<Triangle2> wedgesAlone = wedgesOf(alone);
-	for (const Triangle2& t : wedgesAlone)
-		for (const Point2& p : t)
-			extent = std::max({extent, p[0], p[1]});
-	for (const bool turned : {false, true}) {
-		SurfaceMesh twice = single;
-		const SurfaceMesh other = turned ? withReversedFaces(single, 1) : single;
-		twice.triangles.insert(
-			twice.triangles.end(), other.triangles.begin(), other.triangles.end());
-		for (const OutputTriangulation output : kOutputs) {
-			params.output = output;
-			const auto r = compute(twice, params);
-			EXPECT_EQ(r.report.charts, 2);
-			EXPECT_EQ(r.report.duplicateFaces, static_cast<int>(n));
-			EXPECT_EQ(r.report.splitVertices, static_cast<int>(single.positions.size()));
-			expectFinite(r);
-			expectWritten(twice, output, r);
-			if (output != OutputTriangulation::KeepMesh)
-				continue;
-			const std::vector<Triangle2> wedges = wedgesOf(r);
-			std::vector<std::vector<std::size_t>> charts(2);
-			for (std::size_t f = 0; f < 2 * n; ++f)
-				charts[f / n].push_back(f);
-			expectApart(r, charts);
-			// Congruent: equal distances from two corners of the first face, and to each other.
-			for (std::size_t sheet = 0; sheet < 2; ++sheet) {
-				const bool mirrored = turned && sheet == 1;
-				const auto corner = [&](std::size_t f, std::size_t k) {
-					return wedges[sheet * n + f][mirrored ? (3 - k) % 3 : k];
-				};
-				for (std::size_t f = 0; f < n; ++f)
-					for (std::size_t k = 0; k < 3; ++k)
-						for (std::size_t from = 0; from < 3; ++from)
-							EXPECT_NEAR(
-								distance(corner(f, k), corner(0, from)),
-								distance(wedgesAlone[f][k], wedgesAlone[0][from]),
-								1e-6 * extent);
-			}
-		}
-	}
-}
-
 /// A horn: its two poles lie in one place. The last vertex is one of them.
 SurfaceMesh horn(int rings, int around)
 {

@@ -131,7 +131,7 @@ TEST_P(Cancel, ProgressRunsFromNoneToAll)
 
 TEST_P(Cancel, AtAnyCallTheRunEndsAtOnce)
 {
-	constexpr int kMost = 80;
+	constexpr int kMost = 50;
 	for (const int call : calls(kMost)) {
 		Caller cancel(call);
 		EXPECT_THROW(heard(cancel, [&] { return GetParam().run(m_mesh); }), Cancelled) << call;

@@ -439,7 +439,7 @@ void expectHyperbolicMap(const Parametrization& map, int genus)
 TEST(HighGenus, SlabsWithManyHandles)
 {
 	Random random(910);
-	for (const int genus : {5, 6, 9, 14, 20}) {
+	for (const int genus : {5, 9, 20}) {
 		SCOPED_TRACE("genus " + std::to_string(genus));
 		expectHyperbolicMap(asFound(shaken(perforatedSlab(genus, 2), 0.06, random)), genus);
 	}

@@ -505,7 +505,7 @@ class Refusals : public ::testing::TestWithParam<Refusal>
 {
 };
 
-TEST_P(Refusals, NameWhatIsWrong)
+TEST_P(Refusals, NameWhatIsWrongAtTheFacadeTooAndLeaveTheMesh)
 {
 	const Refusal& refusal = GetParam();
 	const auto [face, faces] = refusal.expect([&] { outcomeOf(refusal); });
@@ -513,12 +513,7 @@ TEST_P(Refusals, NameWhatIsWrong)
 	EXPECT_EQ(
 		faces,
 		refusal.facesBefore < 0 ? 0u : refusal.mesh.triangles.size() - at(refusal.facesBefore));
-}
-
-TEST_P(Refusals, AreTheSameAtTheFacadeAndLeaveTheMesh)
-{
 	using Flow = vcg::tri::RicciFlow<DoubleMesh>;
-	const Refusal& refusal = GetParam();
 	const VertexInput& input = refusal.input;
 	DoubleMesh m;
 	toVcg(refusal.mesh, m);

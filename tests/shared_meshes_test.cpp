@@ -29,12 +29,15 @@ std::string quoted(const fs::path& path)
 }
 
 /// A Python that can run the checker, or nothing.
-std::string pythonWithNumpy()
+const std::string& pythonWithNumpy()
 {
-	for (const std::string& python : {std::string(RICCI_VENV_PYTHON), std::string("python3")})
-		if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
-			return python;
-	return {};
+	static const std::string found = [] {
+		for (const std::string& python : {std::string(RICCI_VENV_PYTHON), std::string("python3")})
+			if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
+				return python;
+		return std::string();
+	}();
+	return found;
 }
 
 /// By how much a distortion may differ from the paper's Table 1, relative to what it has above 1: the meshes
@@ -57,7 +60,7 @@ protected:
 	/// Has the independent checker, if it can run, judge the doubles of the core.
 	void expectVerified(const FlatResult& flat, const std::string& name)
 	{
-		const std::string python = pythonWithNumpy();
+		const std::string& python = pythonWithNumpy();
 		if (python.empty() || !fs::exists(kChecker))
 			return; // told by CheckerCanRun
 		const fs::path obj =
@@ -133,8 +136,7 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 	} meshes[] = {
 		{"g1_mc_torus_small.ply", false},
 		{"annulus_mc_catenoid.ply", false},
-		{"disk_frog_mc_disk.ply", true},
-		{"peers/mc_blob_annulus.ply", false}};
+		{"disk_frog_mc_disk.ply", true}};
 	int present = 0;
 	for (const auto& m : meshes) {
 		if (!load(m.name))
@@ -183,16 +185,11 @@ TEST_F(SharedMeshes, CrankOfGenusTwelve)
 	SKIP_IF_MISSING("hard/g12_crank.ply");
 	Options options;
 	options.cones.distortion = 0.25;
-	for (const Finish finish : {Finish::None, Finish::LeastDistortion}) {
-		options.finish = finish;
-		const FlatResult flat = run(m_mesh, options);
-		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
-		EXPECT_GT(flat.report.overlapCuts, 0);
-		if (finish == Finish::None)
-			EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
-		else
-			EXPECT_EQ(flat.report.flippedFaces + flat.report.flippedByRounding, 0);
-	}
+	options.finish = Finish::None;
+	const FlatResult flat = run(m_mesh, options);
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+	EXPECT_GT(flat.report.overlapCuts, 0);
+	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
 }
 
 /// Flat inside, its 73 handles would need scale factors that differ by 1e34.

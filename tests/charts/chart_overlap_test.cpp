@@ -118,7 +118,7 @@ TEST(ChartOverlap, OfARingIsFollowedToAllPairs)
 /// A corner is so far away that all sheets lie within the rounding of the chart.
 TEST(ChartOverlap, ManySheetsThatOnlyTouchAreNotFollowedThroughAllTheirPairs)
 {
-	const int turns = 40, around = 50 * turns, across = 20;
+	const int turns = 40, around = 25 * turns, across = 20;
 	const SurfaceMesh strip = screw(turns, around, across);
 	const FlatMesh chart =
 		flatMesh(strip, static_cast<int>(strip.positions.size()) - 1, {1e12, 1e12});

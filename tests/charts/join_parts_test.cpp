@@ -7,6 +7,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace ricci::testing {
@@ -187,6 +189,57 @@ TEST(JoinParts, LeavesWhatHasNoRoomAndDividesCrumbs)
 	ASSERT_EQ(left.size(), 3u);
 	EXPECT_EQ(left[1].size(), 6u);
 	EXPECT_EQ(stays.edgesJoined, 0);
+}
+
+/// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.
+TEST(ConnectedPieces, AreTheSmallerOnesWithAStart)
+{
+	Random random(1210);
+	int several = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		const int n = 1 + random.index(40);
+		Parts neighbours(at(n));
+		DisjointSets sets(n);
+		for (int i = random.index(n + 1); i > 0; --i) {
+			const int a = random.index(n), b = random.index(n);
+			neighbours[at(a)].push_back(b);
+			neighbours[at(b)].push_back(a);
+			sets.merge(a, b);
+		}
+		std::vector<int> starts;
+		std::map<int, std::vector<int>> wanted; // by root
+		for (int i = random.index(n + 1); i > 0; --i) {
+			starts.push_back(random.index(n));
+			wanted[sets.find(starts.back())];
+		}
+		for (int i = 0; i < n; ++i)
+			if (const auto piece = wanted.find(sets.find(i)); piece != wanted.end())
+				piece->second.push_back(i);
+		Array<int> scratch(n, -1);
+		Parts found = smallerPieces(
+			starts,
+			[&](int i, const auto& visit) {
+				for (const int j : neighbours[at(i)])
+					visit(j);
+			},
+			scratch);
+		EXPECT_EQ(std::count(scratch.begin(), scratch.end(), -1), n);
+		std::size_t largestFound = 0;
+		for (std::vector<int>& piece : found) {
+			std::sort(piece.begin(), piece.end());
+			const auto known = wanted.find(sets.find(piece.front()));
+			ASSERT_NE(known, wanted.end());
+			EXPECT_EQ(piece, known->second);
+			largestFound = std::max(largestFound, piece.size());
+			wanted.erase(known);
+		}
+		ASSERT_EQ(wanted.size(), starts.empty() ? 0u : 1u);
+		if (!starts.empty()) {
+			EXPECT_GE(wanted.begin()->second.size(), largestFound);
+		}
+		several += found.size() > 1;
+	}
+	EXPECT_GT(several, 300);
 }
 
 } // namespace

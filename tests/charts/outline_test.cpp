@@ -69,6 +69,13 @@ TEST(KeepApart, AgreesWithEveryPairOfCornersOfRoundCharts)
 	EXPECT_EQ(apart, 400);
 }
 
+TEST(KeepApart, SeesAChartInsideAnother)
+{
+	const Outline outer = box(1.0, 1.0), inner = box(0.2, 0.2, {0.4, 0.4});
+	EXPECT_FALSE(keepApart({outer, inner}, 1e-9));
+	EXPECT_FALSE(keepApart({inner, outer}, 1e-9));
+}
+
 /// The first side of the smaller one is its rightmost.
 TEST(KeepApart, EndsAtTheFirstPair)
 {

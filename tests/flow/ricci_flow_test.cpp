@@ -50,16 +50,14 @@ curvatures(const SurfaceMesh& mesh, int chi, double low, double high, double sha
 
 TEST(RicciFlow, ReachesRandomCurvatures)
 {
+	Random random(460);
 	for (const int genus : {0, 1, 2})
-		for (const std::uint64_t seed : {1u, 2u}) {
-			Random random(450 + 10 * seed);
-			for (const SurfaceMesh& mesh :
-				 {shaken(perforatedSlab(genus, 3), 0.08, random), implicitClosed(genus, 5, seed)}) {
-				SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
-				const int chi = 2 - 2 * genus;
-				expectReaches(mesh, curvatures(mesh, chi, -3, 3, 1.0, random));
-				expectReaches(mesh, curvatures(mesh, chi, -6, 6.2, 0.3, random));
-			}
+		for (const SurfaceMesh& mesh :
+			 {shaken(perforatedSlab(genus, 3), 0.08, random), implicitClosed(genus, 5, 1)}) {
+			SCOPED_TRACE("genus " + std::to_string(genus));
+			const int chi = 2 - 2 * genus;
+			expectReaches(mesh, curvatures(mesh, chi, -3, 3, 1.0, random));
+			expectReaches(mesh, curvatures(mesh, chi, -6, 6.2, 0.3, random));
 		}
 }
 

@@ -326,7 +326,7 @@ TEST(SparseCholesky, FactorsMayHaveMoreEntriesThanIntCanTell)
 	if (std::string(SparseCholesky::name()).find("CHOLMOD") == std::string::npos)
 		GTEST_SKIP() << "Eigen's solver numbers entries by int";
 	Random random(69);
-	const int n = 120000;
+	const int n = 100000;
 	std::vector<Eigen::Triplet<double>> entries;
 	for (int i = 0; i < n; ++i) {
 		entries.emplace_back(i, i, 100.0);

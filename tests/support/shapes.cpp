@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace ricci::testing {
@@ -155,15 +154,19 @@ SurfaceMesh perforatedSlab(int genus, int subdivision)
 		return !(c[1] == 1 && c[0] % 2 == 1);
 	};
 	SurfaceMesh mesh;
-	std::map<std::array<int, 3>, int> index; // lattice point, in units of 1 / subdivision
+	const int rows = size[1] * subdivision + 1, layers = size[2] * subdivision + 1;
+	// Of lattice points, in units of 1 / subdivision.
+	std::vector<int> index(at((size[0] * subdivision + 1) * rows * layers), -1);
 	const auto vertex = [&](std::array<int, 3> p) {
-		const auto [found, isNew] = index.insert({p, static_cast<int>(mesh.positions.size())});
-		if (isNew)
+		int& v = index[at((p[0] * rows + p[1]) * layers + p[2])];
+		if (v < 0) {
+			v = static_cast<int>(mesh.positions.size());
 			mesh.positions.push_back(
 				{double(p[0]) / subdivision,
 				 double(p[1]) / subdivision,
 				 double(p[2]) / subdivision});
-		return found->second;
+		}
+		return v;
 	};
 	const auto addSquare = [&](std::array<int, 3> cube, std::size_t axis, int side) {
 		const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
