@@ -10,13 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <regex>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {

@@ -4,7 +4,6 @@
 #include "intrinsic.h"
 #include "shapes.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

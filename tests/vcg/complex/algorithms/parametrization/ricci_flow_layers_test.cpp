@@ -14,7 +14,6 @@
 #include <complex>
 #include <functional>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {
