@@ -157,11 +157,11 @@ struct Report : SurfaceReport, FlowReport, InvariantReport, DistortionReport, Ch
 	/// price of all seams, MapCost::total().
 	std::optional<double> stretch, objective;
 
-	int finishMoved = 0; ///< points of the map that the repair moved, see Finish; one that was
-						 ///< moved again in the coordinates stored counts twice
-	int refinementPoints =
-		0; ///< points of the common refinement that are not vertices of the input;
-		   ///< 0 where the result keeps the mesh
+	/// Points of the map that the repair moved, see Finish; one that was moved again in the coordinates stored counts
+	/// twice.
+	int finishMoved = 0;
+	/// Points of the common refinement that are not vertices of the input; 0 where the result keeps the mesh.
+	int refinementPoints = 0;
 
 	// Of the coordinates as they are stored, in floats:
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
