@@ -91,8 +91,8 @@ flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& 
 	return std::move(swapped.flow);
 }
 
-/// The promise of Target::maxSpread: while a metric changes areas more than its target was chosen for, runs the flow
-/// again, to targetToKeepAreas(), in a bounded number of rounds.
+/// The promise of Target::maxSpread, or of Target::expected: while a metric changes areas, or costs, more than its
+/// target was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds.
 /// \param best the first one
 /// \return the metric that keeps areas best
 /// \throw Stopped

@@ -85,10 +85,12 @@ Parametrization withOtherCones(
 			separateCharts(options, part);
 			return part;
 		});
-		if (next && costOf(*next).total() < costOf(map).total()) {
-			next->report.iterations += map.report.iterations;
+		if (!next)
+			continue;
+		const int steps = map.report.iterations + next->report.iterations;
+		if (costOf(*next).total() < costOf(map).total())
 			map = std::move(*next);
-		}
+		map.report.iterations = steps;
 	}
 	return map;
 }
@@ -124,8 +126,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 				unfolded = unfold(component, options, kMaxCurvatureBetween);
 		});
 	logLines(lines);
+	bool isTried = !mayBeUnfolded; // whatever curvature is left between creases
 	const auto unfoldIfPoor = [&](double cost) {
-		if (!unfolded && cost > kPoorCost && mayBeUnfolded)
+		if (!unfolded && cost > kPoorCost && !std::exchange(isTried, true))
 			unfolded = unfold(component, options, 1.0);
 	};
 

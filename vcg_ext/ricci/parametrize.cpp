@@ -88,26 +88,29 @@ void note(std::string sentence, Parametrization& map)
 	logLine(map.notes.back());
 }
 
-/// Maps the components that have no hyperbolic metric to the unit square, and says so.
+/// Maps the components that have no hyperbolic metric to the unit square.
 Parametrization mapBeside(
-	const OpenedMesh& opened,
-	const std::vector<Component>& components,
-	const FlowOptions& options,
-	Parametrization& map)
+	const WholeMap& whole, const std::vector<Component>& components, const FlowOptions& options)
 {
 	Options inPlane;
 	inPlane.epsilon = options.epsilon;
 	inPlane.finish = options.finish;
 	inPlane.chartMargin = kMarginBeside;
 	Parametrization leftOut;
-	leftOut.u.resize(map.u.size());
-	leftOut.targetCurvature.resize(map.u.size());
+	leftOut.u.resize(whole.map.u.size());
+	leftOut.targetCurvature.resize(whole.map.u.size());
 	appendComponents(
-		opened,
+		whole.opened,
 		components,
 		[&](const Component& component) { return mapToPlane(component, {}, inPlane); },
 		leftOut);
 	packCharts(leftOut, inPlane, chartTurns(inPlane));
+	return leftOut;
+}
+
+void noteLeftOut(
+	const OpenedMesh& opened, const std::vector<Component>& components, Parametrization& map)
+{
 	const auto& largest = *std::max_element(
 		components.begin(), components.end(), [](const Component& a, const Component& b) {
 			return a.face.size() < b.face.size();
@@ -120,7 +123,6 @@ Parametrization mapBeside(
 			std::to_string(opened.face[positionOf(largest.face.front())]) + ", has " +
 			std::to_string(largest.face.size()) + " faces.",
 		map);
-	return leftOut;
 }
 
 /// The charts of parametrizeHyperbolic() before they are placed, each in the unit disk.
@@ -147,8 +149,11 @@ WholeMap chartsInDisk(
 		advance(1.0, "Layout done");
 	}
 	if (!flat.empty()) {
-		const Task beside(share, 1.0, true);
-		leftOut = mapBeside(whole.opened, flat, options, whole.map);
+		{
+			const Task beside(share, 1.0, true);
+			leftOut = mapBeside(whole, flat, options);
+		}
+		noteLeftOut(whole.opened, flat, whole.map);
 	}
 	return whole;
 }
@@ -327,7 +332,9 @@ Parametrization parametrizeHyperbolic(
 		measureInDisk(whole);
 	map.report.relationError =
 		std::max(*map.report.relationError, closingError(map.mesh, map.targetCurvature));
-	const int flipped = flippedInDisk(map.mesh); // geodesic triangles
+	// Straight triangles of a disk may be flipped where geodesic ones are not.
+	const int flipped =
+		isFinished(options) ? 0 : flippedInDisk(map.mesh) + countFlipped(leftOut.mesh).faces;
 	if (!leftOut.charts.empty())
 		addBeside(std::move(leftOut), map);
 	placeDisks(map);
@@ -335,7 +342,7 @@ Parametrization parametrizeHyperbolic(
 	map.report.unequalSeams = unequalSeamsInDisk(map);
 	if (isFinished(options))
 		noteFlipped(options.output, map);
-	else // straight triangles may be flipped where geodesic ones are not
+	else
 		map.report.flippedFaces = flipped;
 	return complete(mesh, std::move(whole));
 }

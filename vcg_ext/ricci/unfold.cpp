@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -150,7 +151,7 @@ std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween)
 {
 	std::vector<std::vector<Component>> divisions; // the pieces
-	int edges = 0;                                 // that are creases
+	std::set<int> edges;                           // numbers of creases
 	const std::vector<Point3>& positions = component.positions.values();
 	const Sides sides(component.triangles);
 	for (const double angle : kCreaseAngles) {
@@ -158,9 +159,8 @@ unfold(const Component& component, const Options& options, double maxBetween)
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
 		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper
-		if (isBent || found.edges == edges)
+		if (isBent || !edges.insert(found.edges).second) // more creases contain fewer
 			continue;
-		edges = found.edges;
 		std::vector<Component> all = pieces(component, found);
 		const auto count = static_cast<double>(all.size());
 		if (!all.empty() &&

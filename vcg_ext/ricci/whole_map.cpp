@@ -272,7 +272,7 @@ void appendComponents(
 
 namespace {
 
-/// Half the side of the square in which they lie in the unit disk: that inscribed in it, less a margin.
+/// Half the side of the square in which components that are left out lie in the unit disk: that inscribed in it, less a margin.
 constexpr double kHalfSquare = 0.7;
 
 /// Why a component has no metric with the target; null where it has one.
@@ -351,6 +351,7 @@ void addBeside(Parametrization leftOut, Parametrization& map)
 			 &Report::eulerCharacteristic,
 			 &Report::genus,
 			 &Report::boundaryLoops,
+			 &Report::cappedHoles,
 			 &Report::seamEdges,
 			 &Report::overlapCuts})
 		report.*count += leftOut.report.*count;

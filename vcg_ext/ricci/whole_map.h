@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the maps of components to the map of the whole mesh.
-// Components of a mesh that have no hyperbolic metric, such as loose bolts beside a body with handles.
+// From the maps of components to the map of the whole mesh, also of those that have no hyperbolic metric, such as loose
+// bolts beside a body with handles.
 #ifndef RICCI_WHOLE_MAP_H
 #define RICCI_WHOLE_MAP_H
 
