@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parametrize.h"
 
-#include "base/numbers.h"
 #include "base/task.h"
 #include "charts/finish_in_floats.h"
 #include "charts/pack.h"
-#include "charts/separate_charts.h"
 #include "flatten.h"
 #include "hyperbolic/closing_error.h"
 #include "hyperbolic/finish_disks.h"

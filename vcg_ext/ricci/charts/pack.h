@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The folder charts: from a map that may cover itself to a packed one, and the last look in floats. The caller's
-// numbers come after it.
-// From a map whose charts have places of their own each to texture coordinates of all of them.
+// numbers come after it. This file: from charts with places of their own each to texture coordinates of all of them.
 #ifndef RICCI_PACK_H
 #define RICCI_PACK_H
 

@@ -72,7 +72,7 @@ PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request);
 
 /// Fits the curvatures of the cones that \p flow has reached anew, and adds cones, until areas are
-/// expected to change as \p request allows (areaExcess() at its distortion), or 64 were
+/// expected to change as \p request allows (areaExcess() at its distortion), or kMaxPlacedCones were
 /// added. The linear problem is that of the metric of \p flow, where it knows how far the first
 /// one was from the truth. Mean squares weigh the parts of the surface that have become very small or
 /// very large, see tailWeights().

@@ -6,7 +6,6 @@
 #include "../metric/geometry.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace ricci {
 

@@ -10,7 +10,6 @@
 #include "overlay_nodes.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
