@@ -35,6 +35,8 @@ const char* remedy(const ricci::InvalidMesh& e)
 	case Error::NoFaces:
 		return ": reconstruct a surface from the points first.";
 	case Error::ArrayLength:
+	case Error::NoTriangle:
+	case Error::UnequalSides:
 		return ": report the mesh.";
 	case Error::ScalesApart:
 		return ": delete it first.";
@@ -118,6 +120,8 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
 			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
+	case Error::WithoutPositions:
+		return reported(e);
 	case Error::HyperbolicMethod:
 		return "The hyperbolic flow has no such method: choose 'Intrinsic flips' or "
 			   "'Fixed triangles'.";

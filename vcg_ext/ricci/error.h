@@ -46,6 +46,8 @@ public:
 		DamagedFaces, ///< count: faces that use vertices which are not in the mesh
 		NotFinite,    ///< count: vertices with coordinates that are NaN or infinite
 		OutOfRange,   ///< count: vertices with coordinates beyond 1e50
+		NoTriangle,   ///< count: faces whose lengths are those of no triangle
+		UnequalSides, ///< count: edges with two lengths
 		ScalesApart,  ///< vertices: one so far away that doubles give the faces elsewhere no area
 		TooSmall,     ///< count: components smaller than 1e-50
 		NoArea,       ///< count: faces; the vertices of each component lie on one line
@@ -86,6 +88,7 @@ public:
 		ChartMargin,            ///< value; must be in [0, bound]
 		ChartMarginTooWide,     ///< value; leaves no room for count charts
 		WithoutFlips,           ///< the common refinement and capped holes belong to flips
+		WithoutPositions,       ///< of a surface given by lengths; see flatten()
 		HyperbolicMethod,       ///< the hyperbolic flow has no edge swaps and no Thurston packing
 		NotADisk,               ///< target (Disk, Rectangle) and surface
 		TooFewBoundaryVertices, ///< count; a rectangle needs 4

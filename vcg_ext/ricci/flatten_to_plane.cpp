@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -244,8 +245,9 @@ PlaneMap layOut(
 			for (const int f : given.points.indices())
 				area += 0.5 * doubledArea(given.at(f));
 		}
-		map.scale =
-			std::sqrt(surfaceArea(component.positions.values(), component.triangles) / area);
+		const std::vector<double> own =
+			triangleAreas(component.positions.values(), component.triangles, component.lengths);
+		map.scale = std::sqrt(std::accumulate(own.begin(), own.end(), 0.0) / area);
 	}
 	const OrientedRectangle upright = minAreaRectangle(layout.corners.points.values());
 	for (Array<Point2>* points : {&layout.corners.points, &map.mesh.place, &map.refinement.place})

@@ -19,14 +19,12 @@ namespace {
 void averageCopies(const OpenedMesh& opened, std::size_t vertexCount, std::vector<double>& values)
 {
 	std::vector<double> ofCopies(opened.vertex.size(), 0.0); // areas
-	for (const Triangle& t : opened.mesh.triangles) {
-		const double area = triangleArea(
-			{opened.mesh.positions[positionOf(t[0])],
-			 opened.mesh.positions[positionOf(t[1])],
-			 opened.mesh.positions[positionOf(t[2])]});
-		for (const int v : t)
-			ofCopies[positionOf(v)] += area;
-	}
+	const std::vector<Triangle>& triangles = opened.mesh.triangles;
+	const std::vector<double> areas =
+		triangleAreas(opened.mesh.positions, triangles, opened.mesh.lengths);
+	for (std::size_t f = 0; f < triangles.size(); ++f)
+		for (const int v : triangles[f])
+			ofCopies[positionOf(v)] += areas[f];
 	std::vector<double> sum(vertexCount, 0.0), area(vertexCount, 0.0);
 	for (std::size_t c = 0; c < ofCopies.size(); ++c) {
 		const std::size_t v = positionOf(opened.vertex[c]);

@@ -31,10 +31,11 @@ constexpr double kSpreadsInstead[] = {0.5, 0.25};
 /// whole component would have to give.
 bool mayUnfold(const Component& component, const Options& options)
 {
-	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
-		   isForObjective(options.cones) && options.cones.rounding == ConeRounding::Free &&
-		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
-		   options.charts != Charts::OfTheFlow && !component.hasSeam;
+	return component.lengths.empty() && options.target == TargetCurvature::Automatic &&
+		   options.freeBoundary && isForObjective(options.cones) &&
+		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
+		   options.output == OutputTriangulation::KeepMesh && options.charts != Charts::OfTheFlow &&
+		   !component.hasSeam;
 }
 
 double totalOf(const std::optional<Parametrization>& map)

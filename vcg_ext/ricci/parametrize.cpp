@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace ricci {
@@ -26,6 +27,20 @@ constexpr int kMaxPackings = 4;
 
 /// Between charts that lie beside a disk: two pixels of a texture of a thousand.
 constexpr double kMarginBeside = 0.002;
+
+/// What is done with positions cannot be had from lengths.
+/// \throw InvalidOption
+void requirePositions(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
+{
+	const bool choosesCorners = options.target == TargetCurvature::Rectangle &&
+								std::count(input.selected.begin(), input.selected.end(), 0) ==
+									static_cast<std::ptrdiff_t>(input.selected.size());
+	if (!mesh.lengths.empty() &&
+		(choosesCorners || options.method == Method::EdgeSwaps ||
+		 options.output == OutputTriangulation::CommonRefinement || options.seamHiding > 0.0 ||
+		 options.cones.rounding == ConeRounding::QuarterTurns))
+		throw InvalidOption(InvalidOption::WithoutPositions);
+}
 
 /// \param last of the choices
 template<class Choice>
@@ -58,26 +73,30 @@ void mapComponents(const Flatten& flatten, WholeMap& whole)
 	advance(kComponentsDone, "Measuring the distortion");
 }
 
-void setDistortion(Distortion distortion, Parametrization& map)
+/// \param flat [triangle] what of the map is measured
+void measure(WholeMap& whole, const Array<Triangle2>& flat)
 {
+	Parametrization& map = whole.map;
+	const SurfaceMesh& mesh = whole.opened.mesh;
+	Distortion distortion =
+		mesh.lengths.empty()
+			? measureDistortion(map.mesh.vertices, map.mesh.onSurface(mesh.positions), flat)
+			: measureDistortion(map.mesh, flat);
 	map.vertexQC = std::move(distortion.vertexQC);
 	static_cast<DistortionReport&>(map.report) = std::move(distortion);
 }
 
-void measure(WholeMap& whole)
+void measureInPlane(WholeMap& whole)
 {
 	Parametrization& map = whole.map;
-	const std::vector<Point3> surface = map.mesh.onSurface(whole.opened.mesh.positions);
-	setDistortion(measureDistortion(map.mesh.vertices, surface, map.mesh.corners()), map);
+	measure(whole, map.mesh.corners());
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
 /// In the unit disk, before the disks are placed.
 void measureInDisk(WholeMap& whole)
 {
-	Parametrization& map = whole.map;
-	const std::vector<Point3> surface = map.mesh.onSurface(whole.opened.mesh.positions);
-	setDistortion(measureHyperbolicDistortion(map.mesh, surface), map);
+	measure(whole, chordTriangles(whole.map.mesh));
 }
 
 void note(std::string sentence, Parametrization& map)
@@ -218,7 +237,7 @@ void pack(const Options& options, WholeMap& whole)
 			packCharts(map, options, turns);
 	}
 	if (isChanged)
-		measure(whole);
+		measureInPlane(whole);
 }
 
 /// Counts what is wrong with the coordinates as they are stored.
@@ -238,9 +257,11 @@ Parametrization complete(const SurfaceMesh& mesh, WholeMap whole)
 	Parametrization& map = whole.map;
 	Report& report = map.report;
 	report.charts = static_cast<int>(map.charts.size());
+	const SurfaceMesh& opened = whole.opened.mesh;
+	const std::vector<double> areas =
+		triangleAreas(opened.positions, opened.triangles, opened.lengths);
 	report.seamLengthRelative =
-		report.seamLength /
-		std::sqrt(surfaceArea(whole.opened.mesh.positions, whole.opened.mesh.triangles));
+		report.seamLength / std::sqrt(std::accumulate(areas.begin(), areas.end(), 0.0));
 	if (report.stretch)
 		report.objective = costOf(map.mesh, report.seamLength + report.chosenSeamLength).total();
 	toInputIndices(mesh, whole.opened, map);
@@ -286,13 +307,14 @@ ChartTurns chartTurns(const Options& options)
 WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
 {
 	checkOptions(options);
+	requirePositions(mesh, input, options);
 	const Task part(0.0, kMapped);
 	WholeMap whole = open(mesh, input, options, OneSidedCut::Shortest);
 	const auto flatten = [&](const Component& component) {
 		return mapToPlane(component, whole.values, options);
 	};
 	mapComponents(flatten, whole);
-	measure(whole);
+	measureInPlane(whole);
 	advance(1.0, "Layout done");
 	return whole;
 }
@@ -321,6 +343,8 @@ Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
 	checkOptions(options);
+	if (!mesh.lengths.empty() && options.output == OutputTriangulation::CommonRefinement)
+		throw InvalidOption(InvalidOption::WithoutPositions);
 	Parametrization leftOut;
 	WholeMap whole = chartsInDisk(mesh, input, options, leftOut);
 	Parametrization& map = whole.map;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All that it takes to flatten a mesh of arrays. parametrize.h, sphere_map.h and report.h have the rest: cones at chosen
-// vertices, seams, maps to the Poincaré disk and to the sphere, and everything that a run measures.
+// All that it takes to flatten a mesh of arrays, or a surface of given edge lengths. hyperbolic.h is its like for the
+// Poincaré disk. parametrize.h, sphere_map.h and report.h have the rest: cones at chosen vertices, seams, the map to the
+// sphere, and everything that a run measures.
 #ifndef RICCI_RICCI_H
 #define RICCI_RICCI_H
 
@@ -44,6 +45,16 @@ struct TextureCoordinates
 TextureCoordinates flatten(
 	const std::vector<std::array<double, 3>>& positions,
 	const std::vector<std::array<int, 3>>& triangles,
+	const Options& options = {},
+	Progress* progress = nullptr);
+
+/// The same of a surface that no positions are known of: its triangles are those of the plane with these sides.
+/// \param lengths [face] of the sides from corner 0 to 1, 1 to 2 and 2 to 0. Both faces of an edge have the same.
+/// \throw also InvalidMesh NoTriangle, UnequalSides; InvalidOption WithoutPositions for what is chosen by looking at
+/// positions: the corners of Rectangle, EdgeSwaps, CommonRefinement, seamHiding, QuarterTurns
+TextureCoordinates flattenFromLengths(
+	const std::vector<std::array<int, 3>>& triangles,
+	const std::vector<std::array<double, 3>>& lengths,
 	const Options& options = {},
 	Progress* progress = nullptr);
 

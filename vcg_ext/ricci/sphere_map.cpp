@@ -321,6 +321,8 @@ void placeVertices(
 
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 {
+	if (!mesh.lengths.empty())
+		throw InvalidOption(InvalidOption::WithoutPositions);
 	std::vector<std::string> notes;
 	const OpenedMesh opened = openMesh(mesh, notes);
 	const std::vector<Component> components = splitIntoComponents(opened);

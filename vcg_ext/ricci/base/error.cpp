@@ -32,6 +32,10 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 		return "The mesh has " + some(n, "vertex", "vertices") + " but no faces";
 	case InvalidMesh::ArrayLength:
 		return "An array has the wrong length, " + std::to_string(n);
+	case InvalidMesh::NoTriangle:
+		return some(n, "face has", "faces have") + " lengths that are those of no triangle";
+	case InvalidMesh::UnequalSides:
+		return some(n, "edge has", "edges have") + " two lengths, one in each of its faces";
 	case InvalidMesh::ScalesApart:
 		return "The coordinates differ by more than doubles hold: vertex " +
 			   std::to_string(vertices[0]) + " is so far away that other faces have no area";
@@ -97,6 +101,10 @@ std::string words(const InvalidOption& e)
 			   " charts";
 	case InvalidOption::WithoutFlips:
 		return "The common refinement and capped holes belong to intrinsic flips";
+	case InvalidOption::WithoutPositions:
+		return "Corners of a rectangle that nobody chose, edge swaps, the common refinement, "
+			   "hidden seams, quarter "
+			   "turns and the sphere need positions, but the surface is given by lengths";
 	case InvalidOption::HyperbolicMethod:
 		return "The hyperbolic flow has no edge swaps and no Thurston packing";
 	case InvalidOption::NotADisk:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -46,7 +47,35 @@ private:
 	std::size_t m_size = 0;
 };
 
+/// \p area(s, s - a, s - b, s - c) of a triangle with the sides a <= b <= c, s half the perimeter.
+template<class Area>
+double ofSides(const std::array<double, 3>& l, Area area)
+{
+	// Without branches: no processor could predict them.
+	const double low = std::min(l[0], l[1]), high = std::max(l[0], l[1]);
+	const double a = std::min(low, l[2]), c = std::max(high, l[2]);
+	const double b = std::max(low, std::min(high, l[2]));
+	// Kahan's order of operations: nothing cancels but the sides themselves.
+	const double twiceShortest = std::max(0.0, a - (c - b)); // 2 (s - c)
+	return area(0.5 * (c + (b + a)), 0.5 * twiceShortest, 0.5 * (a + (c - b)), 0.5 * (c + (b - a)));
+}
+
 } // namespace
+
+double euclideanArea(const std::array<double, 3>& sides)
+{
+	return ofSides(
+		sides, [](double s, double a, double b, double c) { return std::sqrt(s * a * b * c); });
+}
+
+double hyperbolicArea(const std::array<double, 3>& sides)
+{
+	return ofSides(sides, [](double s, double a, double b, double c) {
+		return 4.0 * std::atan(std::sqrt(
+						 std::tanh(0.5 * s) * std::tanh(0.5 * a) * std::tanh(0.5 * b) *
+						 std::tanh(0.5 * c)));
+	});
+}
 
 int orientation(const Point2& a, const Point2& b, const Point2& c)
 {

@@ -112,6 +112,18 @@ inline double distance(const Point3& a, const Point3& b)
 	return length(a - b);
 }
 
+/// Area of a flat triangle with these sides, by Heron's formula in the order of operations of [Kahan
+/// 2014]; 0 where they break the triangle inequality.
+double euclideanArea(const std::array<double, 3>& sides);
+
+/// Area of one triangle of curvature -1 (pi less its angles) from its sides a, b, c and s, half
+/// their sum, by the hyperbolic form of L'Huilier's formula:
+///
+///   tan^2(area / 4) = tanh(s / 2) tanh((s - a) / 2) tanh((s - b) / 2) tanh((s - c) / 2).
+///
+/// 0 where the sides break the triangle inequality.
+double hyperbolicArea(const std::array<double, 3>& sides);
+
 /// Where the point of the segment ab that is nearest to p lies: 0 at a, 1 at b; 0 where a = b.
 inline double nearestOnSegment(const Point2& a, const Point2& b, const Point2& p)
 {

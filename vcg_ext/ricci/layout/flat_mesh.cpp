@@ -236,14 +236,6 @@ void connect(FlatMesh& mesh)
 		mesh.across[side] = sides.across(side);
 }
 
-std::array<double, 3> sideLengths(const Triangle& vertices, const std::vector<Point3>& positions)
-{
-	const auto length = [&](std::size_t i, std::size_t j) {
-		return distance(positions[positionOf(vertices[i])], positions[positionOf(vertices[j])]);
-	};
-	return {length(0, 1), length(1, 2), length(2, 0)};
-}
-
 FlatMesh flatMeshOf(
 	Array<Triangle> vertices, const Array<Triangle2>& plane, const std::vector<Point3>& positions)
 {

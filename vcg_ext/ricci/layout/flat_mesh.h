@@ -136,9 +136,6 @@ void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
 /// Finds FlatMesh::across by the vertices.
 void connect(FlatMesh& mesh);
 
-/// Lengths of the sides of a triangle of the vertices at \p positions in space.
-std::array<double, 3> sideLengths(const Triangle& vertices, const std::vector<Point3>& positions);
-
 /// The flat mesh, one chart, of the faces of a surface whose corners are placed one by one: two corners at one
 /// vertex are one point if a chain of triangles joins them whose common sides have the same ends in the plane.
 /// \param vertices [triangle] corners by vertex, counter-clockwise where \p plane is right

@@ -49,7 +49,7 @@ flatMeshOf(const Component& component, const FlowDomain& domain, const PlanarLay
 	for (const int f : flat.vertices.indices()) {
 		const auto h = domain.halfedges(Face(f));
 		flat.points.push_back({layout.wedge[h[0]], layout.wedge[h[1]], layout.wedge[h[2]]});
-		flat.lengths.push_back(sideLengths(flat.vertices[f], component.positions.values()));
+		flat.lengths.push_back(component.sides(Face(f)));
 		flat.face.push_back(f);
 	}
 	flat.chart.assign(flat.face.size(), 0);

@@ -36,6 +36,14 @@ struct LaidOutTriangle
 		apex = {dot(a, b) / base, height};
 	}
 
+	explicit LaidOutTriangle(const std::array<double, 3>& sides)
+	{
+		const TriangleApex top = triangleApex(sides[0], sides[2], sides[1]);
+		base = sides[0];
+		height = top.height;
+		apex = {top.along, top.height};
+	}
+
 	double area() const { return base > 0.0 ? 0.5 * base * height : 0.0; }
 
 	bool hasShape() const
@@ -86,15 +94,22 @@ double triangleArea(const std::array<Point3, 3>& p)
 	return LaidOutTriangle(p).area();
 }
 
-double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+std::vector<double> triangleAreas(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const std::vector<std::array<double, 3>>& lengths)
 {
-	double area = 0.0;
-	for (const Triangle& t : triangles)
-		area += triangleArea(
+	std::vector<double> areas;
+	for (const std::array<double, 3>& sides : lengths)
+		areas.push_back(euclideanArea(sides));
+	for (std::size_t f = areas.size(); f < triangles.size(); ++f) {
+		const Triangle& t = triangles[f];
+		areas.push_back(triangleArea(
 			{positions[positionOf(t[0])],
 			 positions[positionOf(t[1])],
-			 positions[positionOf(t[2])]});
-	return area;
+			 positions[positionOf(t[2])]}));
+	}
+	return areas;
 }
 
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane)
@@ -140,28 +155,31 @@ double percentile(std::vector<double> values, double share)
 	return *nth;
 }
 
-Distortion measureDistortion(
+namespace {
+
+/// \param own own(triangle) on the surface
+template<class Own>
+Distortion measured(
 	const Array<Triangle>& vertices,
-	const std::vector<Point3>& surface,
+	std::size_t vertexCount,
+	const Own& own,
 	const Array<Triangle2>& plane)
 {
 	const std::vector<Triangle>& triangles = vertices.values();
 	Distortion result;
 	std::vector<double>& vertexQC = result.vertexQC;
-	vertexQC.assign(surface.size(), 0.0);
+	vertexQC.assign(vertexCount, 0.0);
 	std::vector<double> faceQC(triangles.size());
-	std::vector<double> ringArea(surface.size(), 0.0), measured;
+	std::vector<double> ringArea(vertexCount, 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
 	inParallel(vertices.size(), defaultThreads(), [&](int first, int last) {
 		for (std::size_t f = positionOf(first); f < positionOf(last); ++f) {
-			const Triangle& t = triangles[f];
-			const LaidOutTriangle own(
-				{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
-			faceQC[f] = distortionOf(own, plane.values()[f]);
+			const LaidOutTriangle triangle = own(f);
+			faceQC[f] = distortionOf(triangle, plane.values()[f]);
 			if (!std::isfinite(faceQC[f]))
 				continue;
-			areaBefore[f] = own.area();
+			areaBefore[f] = triangle.area();
 			areaAfter[f] = 0.5 * std::abs(doubledArea(plane.values()[f]));
 		}
 	});
@@ -204,12 +222,33 @@ Distortion measureDistortion(
 	return result;
 }
 
-Distortion measureHyperbolicDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface)
+} // namespace
+
+Distortion measureDistortion(
+	const Array<Triangle>& vertices,
+	const std::vector<Point3>& surface,
+	const Array<Triangle2>& plane)
+{
+	const auto own = [&](std::size_t f) {
+		const Triangle& t = vertices.values()[f];
+		return LaidOutTriangle(
+			{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
+	};
+	return measured(vertices, surface.size(), own, plane);
+}
+
+Distortion measureDistortion(const FlatMesh& mesh, const Array<Triangle2>& plane)
+{
+	const auto own = [&](std::size_t f) { return LaidOutTriangle(mesh.lengths.values()[f]); };
+	return measured(mesh.vertices, mesh.source.values().size(), own, plane);
+}
+
+Array<Triangle2> chordTriangles(const FlatMesh& mesh)
 {
 	Array<Triangle2> chords;
 	for (const int f : mesh.points.indices())
 		chords.push_back(chordTriangle(mesh.at(f)));
-	return measureDistortion(mesh.vertices, surface, chords);
+	return chords;
 }
 
 int flippedInDisk(const FlatMesh& mesh)

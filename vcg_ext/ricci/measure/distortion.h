@@ -23,8 +23,12 @@ double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Tria
 /// Area of a triangle in space.
 double triangleArea(const std::array<Point3, 3>& p);
 
-/// Area of all triangles of \p mesh in space.
-double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
+/// Areas of the triangles of a surface.
+/// \param lengths see SurfaceMesh
+std::vector<double> triangleAreas(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const std::vector<std::array<double, 3>>& lengths);
 
 /// Change of area by a map of triangles: their areas before and after, each relative to its total.
 struct AreaDistortion
@@ -59,9 +63,13 @@ Distortion measureDistortion(
 	const std::vector<Point3>& surface,
 	const Array<Triangle2>& plane);
 
-/// Of a map to the Poincaré disk. What is measured is the map to the flat triangles with the corners of the
+/// The same of a surface that is given by the lengths of its sides.
+Distortion measureDistortion(const FlatMesh& mesh, const Array<Triangle2>& plane);
+
+/// Of a map to the Poincaré disk, what is measured is the map to the flat triangles with the corners of the
 /// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.
-Distortion measureHyperbolicDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface);
+/// \return [triangle] these flat triangles
+Array<Triangle2> chordTriangles(const FlatMesh& mesh);
 
 /// Geodesic triangles in the Poincaré disk of the wrong orientation, or without area, as far as rounding can tell.
 int flippedInDisk(const FlatMesh& mesh);

@@ -12,8 +12,9 @@ namespace ricci {
 
 namespace {
 
-/// Marks of a triangle's sides, when it is turned if it is \p reversed.
-std::array<char, 3> inOrder(std::array<char, 3> sides, char reversed)
+/// What is known of a triangle's sides, when it is turned if it is \p reversed.
+template<class T>
+std::array<T, 3> inOrder(std::array<T, 3> sides, char reversed)
 {
 	if (reversed)
 		std::swap(sides[0], sides[2]);
@@ -65,6 +66,7 @@ void numberBreadthFirst(Component& component)
 	reorder(faces, component.face.values());
 	reorder(faces, component.reversed.values());
 	reorder(faces, component.triangles);
+	reorder(faces, component.lengths);
 	reorder(faces, component.diagonal);
 	reorder(faces, component.hole);
 }
@@ -94,6 +96,8 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			triangle[k] = known.number();
 		}
 		c.triangles.push_back(triangle);
+		if (!mesh.lengths.empty())
+			c.lengths.push_back(inOrder(mesh.lengths[positionOf(f)], opened.reversed[f]));
 		if (!mesh.diagonal.empty())
 			c.diagonal.push_back(inOrder(mesh.diagonal[positionOf(f)], opened.reversed[f]));
 		if (!opened.hole.empty())
@@ -109,14 +113,13 @@ void requireAreaEverywhere(const std::vector<Component>& components)
 	std::size_t noLength = 0, noArea = 0;
 	for (const Component& c : components) {
 		std::set<std::pair<int, int>> edgesWithoutLength; // an edge inside has two sides
-		for (const Triangle& t : c.triangles) {
-			std::array<double, 3> l;
-			for (std::size_t k = 0; k < 3; ++k) {
-				const int a = t[k], b = t[(k + 1) % 3];
-				l[k] = distance(c.positions[Vertex(a)], c.positions[Vertex(b)]);
-				if (l[k] == 0.0)
-					edgesWithoutLength.insert({std::min(a, b), std::max(a, b)});
-			}
+		for (const Face f : c.face.indices()) {
+			const std::array<double, 3> l = c.sides(f);
+			for (std::size_t k = 0; k < 3; ++k)
+				if (l[k] == 0.0) {
+					const Triangle& t = c.triangles[positionOf(f)];
+					edgesWithoutLength.insert(std::minmax({t[k], t[(k + 1) % 3]}));
+				}
 			const double longest = *std::max_element(l.begin(), l.end());
 			noArea += !(l[0] + l[1] + l[2] - 2 * longest > 0.0);
 		}

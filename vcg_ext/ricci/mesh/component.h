@@ -21,12 +21,21 @@ struct Component
 	FaceArray<char> reversed; ///< 1 if the order of the input was reversed
 	VertexArray<Point3> positions;
 	std::vector<Triangle> triangles; ///< [face] numbers of the component's vertices, coherent order
-	SideMarks diagonal;              ///< of these triangles, see SurfaceMesh; may be empty
-	SideMarks hole;                  ///< of these triangles, see OpenedMesh; may be empty
-	bool hasSeam = false;            ///< see OpenedMesh
+	std::vector<std::array<double, 3>>
+		lengths;          ///< [face] of the sides of these triangles, see SurfaceMesh; may be empty
+	SideMarks diagonal;   ///< of these triangles, see SurfaceMesh; may be empty
+	SideMarks hole;       ///< of these triangles, see OpenedMesh; may be empty
+	bool hasSeam = false; ///< see OpenedMesh
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }
+
+	/// Lengths of the sides of face \p f.
+	std::array<double, 3> sides(Face f) const
+	{
+		return lengths.empty() ? sideLengths(triangles[positionOf(f)], positions.values())
+							   : lengths[positionOf(f)];
+	}
 };
 
 /// The connected components of a mesh, in the order of their lowest faces, with the faces of a

@@ -69,16 +69,38 @@ Point3 centreOf(const EmbeddedSurface& surface, Halfedge first)
 	return length > 0.0 ? centre / length : mean;
 }
 
+/// Lengths in the capped surface where there are no positions.
+void setFanLengths(const std::vector<Halfedge>& loops, FlowDomain& domain)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	EmbeddedSurface& capped = *domain.capped;
+	for (const Edge e : t.edges())
+		capped.lengths[e] = domain.surface.lengths[e];
+	int centre = t.vertexCount();
+	for (const Halfedge first : loops) {
+		double around = 0.0, longest = 0.0;
+		for (const Halfedge h : t.loop(first)) {
+			around += domain.surface.lengths[h.edge()];
+			longest = std::max(longest, domain.surface.lengths[h.edge()]);
+		}
+		for (const Edge e : capped.triangulation.edges())
+			if (const auto ends = capped.triangulation.ends(e);
+				std::max(ends[0], ends[1]) == Vertex(centre))
+				capped.lengths[e] = std::max(around / (2.0 * kPi), kLongestOfFan * longest);
+		++centre;
+	}
+}
+
 /// The length up to which a loop is short.
 double maxShortLength(const EmbeddedSurface& surface)
 {
 	const Triangulation& t = surface.triangulation;
 	double area = 0.0;
-	for (const Face f : t.faces()) {
-		const auto [a, b, c] = t.vertices(f);
-		const Point3& p = surface.positions[a];
-		area += 0.5 * length(cross(surface.positions[b] - p, surface.positions[c] - p));
-	}
+	for (const Face f : t.faces())
+		area += euclideanArea(
+			{surface.lengths[t.halfedges(f)[0].edge()],
+			 surface.lengths[t.halfedges(f)[1].edge()],
+			 surface.lengths[t.halfedges(f)[2].edge()]});
 	return kShortHole * std::sqrt(area) / std::max(1, 2 * surface.topology.type.genus - 2);
 }
 
@@ -134,6 +156,8 @@ void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain)
 		}
 	}
 	domain.capped = embeddedSurface(std::move(positions), triangles);
+	if (!domain.isEmbedded)
+		setFanLengths(loops, domain);
 }
 
 DoubleSurface doubleOf(const Triangulation& t)
@@ -191,6 +215,10 @@ FlowDomain flowDomain(const Component& component, Holes holes)
 	FlowDomain domain;
 	domain.surface = embeddedSurface(component.positions, component.triangles);
 	const Triangulation& t = domain.surface.triangulation;
+	domain.isEmbedded = component.lengths.empty();
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; !domain.isEmbedded && k < 3; ++k)
+			domain.surface.lengths[t.halfedges(f)[k].edge()] = component.sides(f)[k];
 	domain.isDiagonal = edgesOf(t, component.diagonal);
 	std::vector<Halfedge> loops;
 	if (holes != Holes::Boundaries && !domain.surface.topology.type.isClosed())

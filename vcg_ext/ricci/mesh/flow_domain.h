@@ -46,6 +46,7 @@ struct FlowDomain
 {
 	EmbeddedSurface surface;    ///< the component's own triangles
 	EdgeArray<char> isDiagonal; ///< [edge of surface] see SurfaceMesh; may be empty
+	bool isEmbedded = true;     ///< else it is given by lengths, see SurfaceMesh
 
 	/// The surface with caps on its holes, where they are to be closed: after its own vertices the centres
 	/// of the caps, after its own triangles those of the caps. Elements of the surface keep their numbers.
@@ -81,7 +82,8 @@ loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Hole
 
 /// Closes \p loops of the surface of \p domain by fans round their centres of mass.
 ///
-/// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
+/// Positions serve only to give the edges of the fan a length, without them that of the radius of a circle as long as
+/// the loop, or more where an edge of the loop needs it; and its triangles may be thin: the
 /// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
 /// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
 /// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from

@@ -52,6 +52,15 @@ void checkElements(const SurfaceMesh& mesh)
 	for (const Point3& p : mesh.positions)
 		huge += std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > kMaxCoordinate;
 	requireNone(huge, InvalidMesh::OutOfRange);
+	requireLength("lengths", mesh.lengths.size(), mesh.triangles.size());
+	std::size_t wrong = 0;
+	for (const std::array<double, 3>& sides : mesh.lengths) {
+		const double longest = *std::max_element(sides.begin(), sides.end());
+		wrong += !std::all_of(sides.begin(), sides.end(), [&](double l) {
+			return l > 0.0 && l <= kMaxCoordinate && 2.0 * longest < sides[0] + sides[1] + sides[2];
+		});
+	}
+	requireNone(wrong, InvalidMesh::NoTriangle);
 }
 
 /// Opens one mesh, step by step.
@@ -69,6 +78,17 @@ public:
 				m_triangles.push_back(t);
 			}
 		}
+	}
+
+	/// \throw InvalidMesh UnequalSides
+	/// \pre cutEdges()
+	void requireEqualSides() const
+	{
+		std::size_t unequal = 0;
+		for (const Corner side : m_glued.indices())
+			if (!m_input.lengths.empty() && m_glued[side] > side)
+				unequal += lengthOf(side) != lengthOf(m_glued[side]);
+		requireNone(unequal, InvalidMesh::UnequalSides);
 	}
 
 	void cutEdges()
@@ -183,6 +203,9 @@ public:
 		if (!m_input.diagonal.empty())
 			for (const int f : m_opened.face)
 				m_opened.mesh.diagonal.push_back(m_input.diagonal[positionOf(f)]);
+		if (!m_input.lengths.empty())
+			for (const int f : m_opened.face)
+				m_opened.mesh.lengths.push_back(m_input.lengths[positionOf(f)]);
 		return std::move(m_opened);
 	}
 
@@ -391,6 +414,8 @@ private:
 	/// \throw InvalidMesh TooSmall
 	Array<char> flatComponents() const
 	{
+		if (!m_input.lengths.empty())
+			return Array<char>(m_partition.componentCount, 0);
 		// Twice the largest area of a triangle, and the longest side of all.
 		Array<double> area(m_partition.componentCount, 0.0), longest = area;
 		for (const int f : m_triangles.indices()) {
@@ -413,6 +438,9 @@ private:
 
 	double lengthOf(Corner side) const
 	{
+		if (!m_input.lengths.empty())
+			return m_input
+				.lengths[positionOf(m_opened.face[positionOf(side.face())])][side.index()];
 		return distance(m_positions[m_triangles[side]], m_positions[m_triangles[side.next()]]);
 	}
 
@@ -498,6 +526,7 @@ OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes, On
 	checkElements(mesh);
 	Opening opening(mesh);
 	opening.cutEdges();
+	opening.requireEqualSides();
 	opening.openSeams();
 	opening.cutOneSidedComponents(cut);
 	opening.leaveOutFlatComponents();

@@ -18,7 +18,7 @@ using Triangle = std::array<int, 3>;
 using SideMarks = std::vector<std::array<char, 3>>;
 
 /// A triangle soup with shared vertices, as a caller hands it over. The flow itself sees lengths
-/// only; positions are read for the corners of a rectangle, edge swaps, areas and distortion.
+/// only; positions are read for the corners of a rectangle, edge swaps, caps, creases, areas and distortion.
 struct SurfaceMesh
 {
 	std::vector<Point3> positions;
@@ -26,7 +26,20 @@ struct SurfaceMesh
 	SideMarks diagonal = {};         ///< sides inside polygons that were cut into triangles
 	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
 	SideMarks seam = {}; ///< where the caller wants seams; one face of an edge is enough
+
+	/// [triangle] Lengths of the sides of a surface that is given by them: positions then only tell how many vertices
+	/// there are. Both sides of an edge have one length. Empty: they are distances of positions.
+	std::vector<std::array<double, 3>> lengths = {};
 };
+
+/// Lengths of the sides of a triangle of the vertices at \p positions in space.
+inline std::array<double, 3> sideLengths(const Triangle& t, const std::vector<Point3>& positions)
+{
+	const auto length = [&](std::size_t i, std::size_t j) {
+		return distance(positions[positionOf(t[i])], positions[positionOf(t[j])]);
+	};
+	return {length(0, 1), length(1, 2), length(2, 0)};
+}
 
 /// A point of a surface as an affine combination of its vertices. The weights of vertices that are
 /// not used are 0.

@@ -4,6 +4,7 @@
 #define RICCI_AREA_H
 
 #include "../base/numbers.h"
+#include "../base/points.h"
 #include "../mesh/elements.h"
 #include "../mesh/triangulation.h"
 
@@ -23,10 +24,6 @@ sidesOf(const Triangulation& t, const EdgeArray<double>& lengths, Face f)
 	return {lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]};
 }
 
-/// Area of a flat triangle with these sides, by Heron's formula in the order of operations of [Kahan
-/// 2014]; 0 where they break the triangle inequality.
-double euclideanArea(const std::array<double, 3>& sides);
-
 /// Area of a surface of flat triangles with these side lengths.
 double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths);
 
@@ -34,14 +31,6 @@ double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths);
 /// hyperbolicArea(sides). It does not use the angles that the flow has summed, so that it can check
 /// them by Gauss-Bonnet.
 double hyperbolicArea(const Triangulation& t, const EdgeArray<double>& lengths);
-
-/// Area of one triangle of curvature -1 (pi less its angles) from its sides a, b, c and s, half
-/// their sum, by the hyperbolic form of L'Huilier's formula:
-///
-///   tan^2(area / 4) = tanh(s / 2) tanh((s - a) / 2) tanh((s - b) / 2) tanh((s - c) / 2).
-///
-/// 0 where the sides break the triangle inequality.
-double hyperbolicArea(std::array<double, 3> sides);
 
 /// Place of the apex of a plane triangle over its base, which runs from 0 along the x axis:
 ///
