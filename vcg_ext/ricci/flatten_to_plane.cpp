@@ -54,7 +54,8 @@ TargetRequest targetRequest(
 	TargetRequest request;
 	static_cast<TargetInput&>(request) = targetInput(component, input, surface.positions.size());
 	request.options = options;
-	request.measuresAreas = options.method == Method::IntrinsicFlips;
+	request.measuresAreas =
+		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
 	return request;

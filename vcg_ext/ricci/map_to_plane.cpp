@@ -32,7 +32,7 @@ constexpr double kSpreadsInstead[] = {0.5, 0.25};
 bool mayUnfold(const Component& component, const Options& options)
 {
 	return component.lengths.empty() && options.target == TargetCurvature::Automatic &&
-		   options.freeBoundary && isForObjective(options.cones) &&
+		   options.freeBoundary && goalOf(options.cones) == ConeGoal::LeastCost &&
 		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
 		   options.output == OutputTriangulation::KeepMesh && options.charts != Charts::OfTheFlow &&
 		   !component.hasSeam;
@@ -74,7 +74,8 @@ Parametrization withOtherCones(
 	double alternative,
 	Parametrization map)
 {
-	if (map.report.targetUsed != TargetUsed::PlacedCones || !isForObjective(options.cones))
+	if (map.report.targetUsed != TargetUsed::PlacedCones ||
+		goalOf(options.cones) != ConeGoal::LeastCost)
 		return map;
 	for (const double spread : kSpreadsInstead) {
 		if (std::min(costOf(map).total(), alternative) <= kPoorCost)

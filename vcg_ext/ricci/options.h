@@ -116,12 +116,19 @@ struct ConeOptions
 	int count = 0;
 	double distortion = 0.0;
 	ConeRounding rounding = ConeRounding::Free;
+
+	/// Automatic places cones on surfaces alone that have no flat metric without them, however areas change.
+	bool onlyWhereNeeded = false;
 };
 
-/// Whether cones are to lower energy and price of seams together.
-inline bool isForObjective(const ConeOptions& options)
+/// What cones are placed for.
+enum class ConeGoal { LeastCost, Count, Spread };
+
+inline ConeGoal goalOf(const ConeOptions& options)
 {
-	return options.count == 0 && options.distortion == 0.0;
+	return options.count > 0          ? ConeGoal::Count
+		   : options.distortion > 0.0 ? ConeGoal::Spread
+									  : ConeGoal::LeastCost;
 }
 
 /// The widest margin that charts are packed with.

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace ricci {
@@ -337,7 +336,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	const SurfaceMesh disk = punctured(c, pole);
 	Options flow;
 	flow.epsilon = options.epsilon;
-	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
+	flow.cones.onlyWhereNeeded = true;
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;
 	const Parametrization flat = [&] {

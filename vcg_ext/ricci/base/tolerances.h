@@ -119,10 +119,6 @@ constexpr double kMollification = 1e-5;
 /// and holes cost little: short is divided by the Euler characteristic.
 constexpr double kShortHole = 0.1;
 
-/// The sides of a cap's triangles that meet in its centre are this much of its longest edge at least: above a half, by
-/// which they are triangles.
-constexpr double kLongestOfFan = 0.75;
-
 /// Spread of the logarithm of the area factor beyond which a linear problem knows nothing of the tails,
 /// and above which the mean factor may be larger than kMaxAreaMean. At 1 most areas keep within a factor
 /// of e.

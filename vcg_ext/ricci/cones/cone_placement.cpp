@@ -43,7 +43,7 @@ constexpr double kNoGain = 1e-6;
 
 void checkCount(const ConeRequest& request, int least, const ConeSites& sites)
 {
-	if (request.count > 0 && request.count < least)
+	if (goalOf(request) == ConeGoal::Count && request.count < least)
 		throw InvalidOption(InvalidOption::TooFewCones, request.count, least);
 	const int wanted = std::max(request.count, least);
 	if (wanted > sites.count())
@@ -223,9 +223,10 @@ void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeMo
 void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	startCones(model, sites);
-	if (request.count > 0)
+	const ConeGoal goal = goalOf(request);
+	if (goal == ConeGoal::Count)
 		placeCount(request, model, sites);
-	else if (isForObjective(request))
+	else if (goal == ConeGoal::LeastCost)
 		placeForObjective(request, model, sites);
 	else
 		placeForDistortion(request, model, sites);
@@ -234,13 +235,13 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 		relocateCones(model, sites);
 	}
 	removeWeakCones(model);
-	if (!isForObjective(request)) {
+	if (goal != ConeGoal::LeastCost) {
 		SeamTree tree(sites, model.vertices());
 		shortenConeTree(
 			model,
 			tree,
 			sites,
-			request.count > 0 ? kSeamAllowance * model.distortion() : request.distortion);
+			goal == ConeGoal::Count ? kSeamAllowance * model.distortion() : request.distortion);
 		removeWeakCones(model);
 	}
 }
@@ -357,19 +358,20 @@ void searchFromCoarse(
 	const ConeSites coarseSites(sites, roots);
 	ConeModel coarseModel(coarse, model.total());
 	ConeRequest coarseRequest = request;
+	const bool isCounted = goalOf(request) == ConeGoal::Count;
 	model.setRounding(request.rounding);
 	double excess = 0.0; // of the distortion on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
 		copyCones(coarseModel, roots, model);
 		excess = model.distortion() / request.distortion;
-		if (request.count > 0 || excess <= 1.0)
+		if (isCounted || excess <= 1.0)
 			break;
 		coarseRequest.distortion /= excess;
 	}
-	if (request.count > 0 || excess > 1.0)
+	if (isCounted || excess > 1.0)
 		relocateCones(model, sites, kMaxFineRounds);
-	if (request.count == 0)
+	if (!isCounted)
 		addForDistortion(request, model, sites);
 	removeWeakCones(model);
 }
@@ -387,7 +389,7 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 {
 	advance(0.0, "Placing cones");
 	const bool isLarge = surface.triangulation.vertexCount() > kMaxSearched;
-	if (isLarge && isForObjective(request))
+	if (isLarge && goalOf(request) == ConeGoal::LeastCost)
 		return placeOnAggregates(surface, flow, request);
 	const ConeSites sites(surface, request.vertices);
 	ConeModel model(flow, surface.topology.type.totalCurvature());
@@ -405,7 +407,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
-	if (isForObjective(request)) {
+	if (goalOf(request) == ConeGoal::LeastCost) {
 		PlacedCones placed = placeCones(surface, linear, request);
 		const auto k = Eigen::Map<const Eigen::VectorXd>(
 			placed.curvatures.data(), static_cast<Eigen::Index>(placed.curvatures.size()));

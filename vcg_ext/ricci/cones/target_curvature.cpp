@@ -224,9 +224,10 @@ void setPlacedCones(
 	target.expectedSpread = cones.distortion;
 	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (request.measuresAreas && isForObjective(request.options.cones))
+	const ConeGoal goal = goalOf(request.options.cones);
+	if (request.measuresAreas && goal == ConeGoal::LeastCost)
 		target.expected = expectation(cones);
-	else if (request.measuresAreas && request.options.cones.count == 0)
+	else if (request.measuresAreas && goal == ConeGoal::Spread)
 		target.maxSpread = request.options.cones.distortion;
 	if (surface.topology.type.isClosed())
 		return;
@@ -281,7 +282,8 @@ void choosePlainOrCones(
 											  : placeCones(surface, flow, coneRequest(request));
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	const ConeOptions& wanted = request.options.cones;
-	const bool goesBySpread = wanted.count == 0 && !isForObjective(wanted);
+	const ConeGoal goal = goalOf(wanted);
+	const bool goesBySpread = goal == ConeGoal::Spread;
 	MapCost plain{expectedEnergy(spread), cones->seamsWithout};
 	const bool isKept = goesBySpread ? spread <= wanted.distortion
 									 : plain.energy - expectedEnergy(0.0) < kNegligible;
@@ -324,7 +326,7 @@ void choosePlainOrCones(
 					 describe(expectation(*cones))
 			   : "") +
 		".");
-	if (isForObjective(wanted))
+	if (goal == ConeGoal::LeastCost)
 		target.expected = plain;
 	else if (goesBySpread)
 		target.maxSpread = wanted.distortion;

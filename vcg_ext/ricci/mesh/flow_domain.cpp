@@ -86,7 +86,7 @@ void setFanLengths(const std::vector<Halfedge>& loops, FlowDomain& domain)
 		for (const Edge e : capped.triangulation.edges())
 			if (const auto ends = capped.triangulation.ends(e);
 				std::max(ends[0], ends[1]) == Vertex(centre))
-				capped.lengths[e] = std::max(around / (2.0 * kPi), kLongestOfFan * longest);
+				capped.lengths[e] = 0.5 * (around / kPi + longest);
 		++centre;
 	}
 }

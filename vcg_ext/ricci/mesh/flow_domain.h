@@ -82,8 +82,8 @@ loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Hole
 
 /// Closes \p loops of the surface of \p domain by fans round their centres of mass.
 ///
-/// Positions serve only to give the edges of the fan a length, without them that of the radius of a circle as long as
-/// the loop, or more where an edge of the loop needs it; and its triangles may be thin: the
+/// Positions serve only to give the edges of the fan a length, without them the radius of a circle as long as
+/// the loop and half its longest edge; and its triangles may be thin: the
 /// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
 /// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
 /// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
