@@ -62,7 +62,7 @@ TEST(KeptAreas, AreLeftWhereAnyDistortionIsAllowed)
 {
 	for (const auto& [name, mesh] : hardSurfaces()) {
 		SCOPED_TRACE(name);
-		Options needed;
+		Options needed = keeping(0.0);
 		needed.cones.onlyWhereNeeded = true;
 		needed.holes = Holes::Boundaries; // a capped disk is a sphere
 		const bool isSphere = name.rfind("sphere", 0) == 0;
