@@ -249,6 +249,32 @@ TEST(Unfolded, ACylinderIsItsWallWithTwoLids)
 	EXPECT_NEAR(map.report.seamLength, 2.0 * (kSides - 1) * side + 3.0, 1e-9);
 }
 
+/// Two faces with less than a millionth of the area, which no picture shows, do not decide that a box is not unfolded.
+TEST(Unfolded, WhateverNeedlesThereAre)
+{
+	const SurfaceMesh box = perforatedSlab(0, 3);
+	const FlatResult whole = run(box, Options());
+	ASSERT_EQ(whole.report.targetUsed, TargetUsed::Unfolded);
+	Random random(13);
+	for (int round = 0; round < 3; ++round) {
+		SurfaceMesh mesh = box;
+		for (int i = 0; i < 2; ++i) { // a vertex beside an edge, and the needle between them
+			const std::size_t f = at(random.index(static_cast<int>(box.triangles.size())));
+			const Triangle t = mesh.triangles[f];
+			const Point3 &p = mesh.positions[at(t[0])], &q = mesh.positions[at(t[1])];
+			const Point3 middle = 0.5 * (p + q);
+			const int n = static_cast<int>(mesh.positions.size());
+			mesh.positions.push_back(middle + 4e-6 * (mesh.positions[at(t[2])] - middle));
+			mesh.triangles[f] = {t[0], n, t[2]};
+			mesh.triangles.push_back({n, t[1], t[2]});
+			mesh.triangles.push_back({t[0], t[1], n});
+		}
+		const FlatResult map = run(mesh, Options());
+		EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
+		EXPECT_NEAR(*map.report.objective, *whole.report.objective, 0.1);
+	}
+}
+
 TEST(Unfolded, AreNoRoundSurfaces)
 {
 	for (const SurfaceMesh& mesh : {torus(2.0, 1.0, 40, 20), ring(1.0, 2.0, 30, 5)}) {
