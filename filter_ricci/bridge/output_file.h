@@ -38,7 +38,7 @@ public:
 	/// Appends bytes to the file beside its place. \return false if that fails
 	bool write(const char* data, std::size_t size);
 
-	/// Moves the file to its place. \return false if that fails
+	/// Moves the file to its place, if it was written. \return false if that fails
 	bool publish();
 
 	/// Why write() or publish() has failed.

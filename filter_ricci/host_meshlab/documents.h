@@ -12,9 +12,6 @@
 
 namespace filter_ricci::host {
 
-/// Pictures of meshes are files, at last when the mesh is saved.
-constexpr bool kWritesPictures = true;
-
 /// Programs without one have no settings of an organization.
 inline bool hasWindow()
 {

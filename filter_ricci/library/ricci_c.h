@@ -166,7 +166,7 @@ RICCI_API int32_t ricci_set_listener(ricci_run* run, ricci_listener listener, vo
  * file is the caller's to write. Any failure leaves neither outputs nor files. */
 RICCI_API int32_t ricci_execute(ricci_run* run);
 
-/* What the last call with this run that returned a code found wrong; "" after RICCI_OK. Valid until the next call
+/* What the last call with this run found wrong, ricci_output() apart; "" after RICCI_OK. Valid until the next call
  * with it. */
 RICCI_API const char* ricci_message(const ricci_run* run);
 
