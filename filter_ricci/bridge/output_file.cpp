@@ -31,7 +31,8 @@ std::string lastReason()
 
 fs::path absolutePath(const std::string& wanted, const std::string& folder)
 {
-	return fs::absolute(fs::u8path(folder) / fs::u8path(wanted)).lexically_normal();
+	std::error_code isGone; // then only absolute paths lead anywhere
+	return (fs::current_path(isGone) / fs::u8path(folder) / fs::u8path(wanted)).lexically_normal();
 }
 
 std::string endingOf(const fs::path& path)

@@ -57,6 +57,7 @@ class CMeshO : public vcg::tri::TriMesh<std::vector<CVertexO>, vcg::face::vector
 {
 public:
 	CMeshO() { Tr.SetIdentity(); }
+	~CMeshO() override { ClearAttributes(); } // vcglib leaves them behind
 
 	/// As the matrix moves it.
 	Box3m trBB() const
