@@ -19,18 +19,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
 
 namespace filter_ricci {
 
-thread_local vcg::CallBackPos* listener = nullptr;
-
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Flow = vcg::tri::RicciFlow<CMeshO>;
 using Layers = vcg::tri::RicciFlowLayers<CMeshO>;
 
 /// Share of the map to the sphere in the work of both maps.
@@ -38,9 +35,6 @@ constexpr double kSphereShare = 0.4;
 
 /// Share of the texture in the work of a run.
 constexpr double kTextureShare = 0.15;
-
-/// Between two calls of a listener, which may be slow.
-constexpr std::chrono::milliseconds kListenerPause(50);
 
 /// Faces that the layer of the universal cover may have at most.
 constexpr std::size_t kMaxCoverFaces = 5000000;
@@ -50,39 +44,33 @@ constexpr int kGeodesicPieces = 200;
 
 /// Sentences name a parameter by its id in braces: with the name that the user knows, the label in a window
 /// and the id in a script.
-std::string withNames(int filter, const std::string& text)
+std::string withNames(int filter, std::string text)
 {
-	QString named = QString::fromStdString(text);
-	for (const RichParameter& parameter : filterParameters(filter))
-		named.replace(
-			"{" + parameter.name() + "}",
-			host::hasWindow() ? "'" + parameter.fieldDescription() + "'" : parameter.name());
-	return named.toStdString();
+	for (const Parameter& parameter : filterParameters(filter)) {
+		const std::string id = "{" + parameter.name + "}";
+		for (std::size_t at = 0; (at = text.find(id, at)) != std::string::npos;)
+			text.replace(
+				at, id.size(), host::hasWindow() ? "'" + parameter.label + "'" : parameter.name);
+	}
+	return text;
 }
 
-class HostProgress : public ricci::Progress
+/// Passes everything on, log lines with names.
+class Named : public ricci::Progress
 {
 public:
-	HostProgress(vcg::CallBackPos* callback, const Log& log) : callback_(callback), log_(log) {}
+	Named(int filter, ricci::Progress& listener) : m_filter(filter), m_listener(listener) {}
 
-	void log(const std::string& line) override { log_(line); }
+	void log(const std::string& line) override { m_listener.log(withNames(m_filter, line)); }
 
 	bool update(double fraction, const std::string& what) override
 	{
-		const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
-		if (callback_ != nullptr && !callback_(percent, host::progressText(what).c_str()))
-			return false;
-		if (listener == nullptr || Clock::now() < nextTold_)
-			return true;
-		const bool goesOn = listener(percent, what.c_str());
-		nextTold_ = Clock::now() + kListenerPause;
-		return goesOn;
+		return m_listener.update(fraction, what);
 	}
 
 private:
-	vcg::CallBackPos* callback_;
-	const Log& log_;
-	Clock::time_point nextTold_;
+	int m_filter;
+	ricci::Progress& m_listener;
 };
 
 /// Whether the vertex quality is a distortion: with the filter's attribute beside it, 1 or more everywhere,
@@ -214,10 +202,10 @@ public:
 			host::removeMesh(m_md, layer);
 	}
 
-	MeshModel& add(const QString& label)
+	MeshModel& add(const std::string& label)
 	{
 		m_layers.reserve(m_layers.size() + 1);
-		m_layers.push_back(m_md.addNewMesh(QString(), label, false));
+		m_layers.push_back(host::addMesh(m_md, label));
 		return *m_layers.back();
 	}
 
@@ -290,12 +278,12 @@ void placeBeside(const MeshModel& model, const Flow::Result& result, MeshModel& 
 void addFlatLayer(
 	NewLayers& layers,
 	MeshModel& model,
-	const QString& name,
+	const std::string& name,
 	const Flow::Result& result,
 	const CarriedTexture& texture,
 	double colourTop)
 {
-	MeshModel& flat = layers.add(name + " " + model.label());
+	MeshModel& flat = layers.add(name + " " + host::label(model));
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
 	Layers::BuildFlatMesh(result, flat.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
@@ -313,7 +301,7 @@ void addFlatLayer(
 
 void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::Result& result)
 {
-	MeshModel& cover = layers.add("Universal cover " + model.label());
+	MeshModel& cover = layers.add("Universal cover " + host::label(model));
 	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
 	Layers::BuildUniversalCover(result, rings, kMaxCoverFaces, cover.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
@@ -323,7 +311,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 
 void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
 {
-	MeshModel& axes = layers.add("Axes " + model.label());
+	MeshModel& axes = layers.add("Axes " + host::label(model));
 	Layers::BuildAxes(result, kGeodesicPieces, axes.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
 	placeBeside(model, result, axes);
@@ -331,7 +319,7 @@ void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& resul
 
 void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
 {
-	MeshModel& layer = layers.add("Canonical polygon " + model.label());
+	MeshModel& layer = layers.add("Canonical polygon " + host::label(model));
 	for (const auto& polygon : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, layer.cm))
 		ricci::logLine(
 			polygon.corners.empty()
@@ -348,7 +336,7 @@ void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& re
 /// The mesh on the sphere.
 void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap& map)
 {
-	MeshModel& sphere = layers.add("Sphere of " + model.label());
+	MeshModel& sphere = layers.add("Sphere of " + host::label(model));
 	Layers::BuildSphereMesh(model.cm, map, sphere.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(sphere.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
@@ -438,6 +426,29 @@ Flow::Result computeFor(
 	}
 }
 
+/// See Outcome. Before the mesh is written.
+void tellOrigins(
+	const ricci::FlatMesh& map,
+	const CMeshO& m,
+	ricci::OutputTriangulation output,
+	Outcome& outcome)
+{
+	for (std::size_t f = 0; f < m.face.size(); ++f)
+		outcome.origin.push_back(static_cast<int>(f));
+	outcome.chart.assign(m.face.size(), -1);
+	std::vector<char> taken(m.face.size(), 0);
+	for (const int i : map.points.indices()) {
+		const auto f = static_cast<std::size_t>(map.face[i]);
+		if (taken[f] && output == ricci::OutputTriangulation::CommonRefinement) {
+			outcome.origin.push_back(map.face[i]);
+			outcome.chart.push_back(map.chart[i]);
+		}
+		else
+			outcome.chart[f] = map.chart[i];
+		taken[f] = 1;
+	}
+}
+
 /// What the runs of both filters share: what is read first, and how the result is written.
 class Run
 {
@@ -450,7 +461,7 @@ public:
 			task(listener, settings.timeLimit),
 			model(checkedMesh(md, readsQuality)), seams(chosenSeams(model, settings.seams)),
 			texture(settings.texture, model), m_settings(settings), m_md(md),
-			m_report(settings.report, model.pathName())
+			m_report(settings.report, host::folder(model))
 	{
 	}
 
@@ -464,7 +475,7 @@ public:
 	template<class AddLayers>
 	Outcome
 	end(int filter,
-		const RichParameterList& par,
+		const Parameters& par,
 		ricci::OutputTriangulation output,
 		const Flow::Result& result,
 		Results results,
@@ -481,8 +492,8 @@ public:
 		}
 		const std::vector<std::string> sentences = summary(filter, par, result.report, results);
 		RunReport report{
-			filterText(filter).name.toStdString(),
-			model.shortName().toStdString(),
+			filterText(filter).name,
+			host::name(model),
 			sizeOf(model.cm),
 			settingsAsText(par),
 			result.notes,
@@ -500,9 +511,12 @@ public:
 		for (const std::string& file : m_report.publish())
 			ricci::logLine("Report: " + file);
 		const bool recolours = m_settings.colorize || hasOwnColours(model);
+		Outcome outcome{
+			results, sentences, changedElements(recolours, texture.isWanted(), output), {}, {}};
+		tellOrigins(result.mesh, model.cm, output, outcome);
 		writeMesh(model, m_settings.colorize, output, result, results, texture);
 		layers.keep();
-		return {results, sentences, changedElements(recolours, texture.isWanted(), output)};
+		return outcome;
 	}
 
 	ricci::Task task;
@@ -511,11 +525,9 @@ public:
 	CarriedTexture texture;
 
 private:
-	std::vector<std::string> summary(
-		int filter,
-		const RichParameterList& par,
-		const ricci::Report& report,
-		const Results& results) const
+	std::vector<std::string>
+	summary(int filter, const Parameters& par, const ricci::Report& report, const Results& results)
+		const
 	{
 		std::vector<std::string> lines{toSentence(results, report.choice)};
 		for (const std::string& doubt : doubts(filter, results, par))
@@ -545,7 +557,7 @@ private:
 	ReportFiles m_report;
 };
 
-Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
+Outcome applyEuclidean(const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
 	Settings settings = readSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::TargetCurvature::Prescribed, listener);
@@ -579,7 +591,7 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	});
 }
 
-Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
+Outcome applyHyperbolic(const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::HyperbolicTarget::Prescribed, listener);
@@ -610,14 +622,6 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	});
 }
 
-RichParameterList withDefaults(RichParameterList par, int filter)
-{
-	for (const RichParameter& parameter : filterParameters(filter))
-		if (!par.hasParameter(parameter.name()))
-			par.addParam(parameter);
-	return par;
-}
-
 } // namespace
 
 int preConditions()
@@ -631,23 +635,17 @@ int postConditions()
 		   MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 }
 
-Outcome applyFilter(
-	int filter,
-	const RichParameterList& given,
-	MeshDocument& md,
-	vcg::CallBackPos* callback,
-	const Log& log)
+Outcome applyFilter(int filter, const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
-	const RichParameterList par = withDefaults(given, filter);
-	const Log named = [&](const std::string& line) { log(withNames(filter, line)); };
-	HostProgress progress(callback, named);
+	Named progress(filter, listener);
 	Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
 										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
-		log(line);
+		listener.log(line);
 	for (const std::string& line : outcome.sentences)
-		named(line);
-	log(whereToLook(par.getBool("colorize"), outcome.results));
+		progress.log(line);
+	if (*host::kHistogramName != 0)
+		listener.log(whereToLook(valueOf<bool>(par, "colorize"), outcome.results));
 	return outcome;
 }
 

@@ -3,7 +3,6 @@
 
 #include "error_sentences.h"
 #include "free_memory.h"
-#include "output_path.h"
 
 #include <ricci/base/indexed.h>
 #include <ricci/base/numbers.h>
@@ -13,51 +12,27 @@
 
 #include <vcg/complex/algorithms/update/color.h>
 
-#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-#include <QColorSpace>
-#endif
-#include <QImageWriter>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace filter_ricci {
 
 namespace {
 
+using Flow = vcg::tri::RicciFlow<CMeshO>;
+
 /// Gutters take no more of the side of the square than this for one margin.
 constexpr double kMaxMargin = 0.05;
 
 /// Names that files of meshes keep: PLY drops all other letters from names of textures.
-bool isKeptByFiles(const QString& name)
+bool isKeptByFiles(const std::string& name)
 {
-	return std::all_of(
-		name.begin(), name.end(), [](QChar c) { return c.unicode() > 32 && c.unicode() < 125; });
-}
-
-bool hasWords(const QImage& image)
-{
-	switch (image.format()) {
-	case QImage::Format_BGR30:
-	case QImage::Format_A2BGR30_Premultiplied:
-	case QImage::Format_RGB30:
-	case QImage::Format_A2RGB30_Premultiplied:
-#if QT_VERSION >= QT_VERSION_CHECK(5, 12, 0)
-	case QImage::Format_RGBX64:
-	case QImage::Format_RGBA64:
-	case QImage::Format_RGBA64_Premultiplied:
-#endif
-#if QT_VERSION >= QT_VERSION_CHECK(5, 13, 0)
-	case QImage::Format_Grayscale16:
-#endif
-		return true;
-	default:
-		return false;
-	}
+	return std::all_of(name.begin(), name.end(), [](char c) { return c > 32 && c < 125; });
 }
 
 std::array<float, 4> asColour(const vcg::Color4b& c)
@@ -70,17 +45,23 @@ std::array<float, 4> asColour(const vcg::Color4b& c)
 	throw Refusal(sentence);
 }
 
-double texels(const QImage& image)
+double texels(const host::Picture& image)
 {
 	return static_cast<double>(image.width()) * image.height();
 }
 
 /// Whether writing to \p path could overwrite \p old, sooner or later: hosts may know a texture by its
 /// bare name, and write it by that name when the mesh is saved.
-bool mayOverwrite(const QFileInfo& path, const QFileInfo& old)
+bool mayOverwrite(const std::filesystem::path& path, const std::filesystem::path& old)
 {
-	const bool isSame = path.exists() && path == old; // links lead to one file
-	return isSame || path.fileName().compare(old.fileName(), Qt::CaseInsensitive) == 0;
+	std::error_code isMissing;
+	if (std::filesystem::equivalent(path, old, isMissing)) // links lead to one file
+		return true;
+	const std::string a = path.filename().u8string(), b = old.filename().u8string();
+	const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
+	return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) {
+		return small(x) == small(y);
+	});
 }
 
 /// Barycentric coordinates of a point in a face of the mesh.
@@ -100,65 +81,19 @@ ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
 	return weights;
 }
 
-/// Passes what is written on to a file, with a checkpoint each time. No exception passes the library that
-/// writes: one of the checkpoint makes the writing fail, and is kept.
-class WatchedFile : public QIODevice
-{
-public:
-	/// \param expected bytes, to the order of magnitude
-	WatchedFile(QIODevice& file, double expected) : m_file(file), m_expected(expected)
-	{
-		open(QIODevice::WriteOnly | QIODevice::Unbuffered);
-	}
-
-	bool isSequential() const override { return true; }
-
-	void rethrow() const
-	{
-		if (m_thrown)
-			std::rethrow_exception(m_thrown);
-	}
-
-protected:
-	qint64 readData(char*, qint64) override { return -1; }
-
-	qint64 writeData(const char* data, qint64 size) override
-	{
-		try {
-			m_bytes += static_cast<double>(size);
-			ricci::advance(m_bytes / (m_bytes + m_expected), "Writing the texture");
-		}
-		catch (...) {
-			m_thrown = std::current_exception();
-			return -1;
-		}
-		// A disk that becomes full takes a part first; only the next call says why it takes no more.
-		for (qint64 done = 0, more = 0; done < size; done += more) {
-			more = m_file.write(data + done, size - done);
-			if (more <= 0)
-				return -1;
-		}
-		return size;
-	}
-
-private:
-	QIODevice& m_file;
-	double m_expected, m_bytes = 0.0;
-	std::exception_ptr m_thrown;
-};
-
 } // namespace
 
 CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel& model)
 {
-	const QString wanted = settings.file.trimmed();
-	if (wanted.isEmpty())
+	const std::string& wanted = settings.file;
+	if (wanted.empty())
 		return;
-	const std::string shown = "The texture " + wanted.toStdString() + " cannot be written";
-	if (QFileInfo(wanted).suffix().toLower() != "png")
+	const std::string shown = "The texture " + wanted + " cannot be written";
+	const std::string folder = host::folder(model);
+	const std::filesystem::path path = absolutePath(wanted, folder);
+	if (endingOf(path) != "png")
 		refuse(shown + ": its name must end in .png.");
-	const QString path = absolutePath(wanted, model.pathName());
-	m_name = host::textureName(path, model.pathName());
+	m_name = host::textureName(path, absolutePath("", folder));
 	if (!isKeptByFiles(m_name))
 		refuse(
 			shown +
@@ -167,16 +102,17 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 	m_size = settings.size;
 	readFaces(model);
 	for (const std::string& old : model.cm.textures)
-		if (mayOverwrite(path, absolutePath(QString::fromStdString(old), model.pathName())))
+		if (mayOverwrite(path, absolutePath(old, folder)))
 			refuse(shown + ": it has the name of a texture of the mesh. Choose another name.");
 	loadPictures(model);
 	if (m_size == 0)
 		fitSize();
-	const QString reason = whyNotWritable(path);
-	if (!reason.isEmpty())
-		refuse(shown + " (" + reason.toStdString() + "): choose another place for it.");
+	OutputFile file(path);
+	const std::string reason = file.whyNotWritable();
+	if (!reason.empty())
+		refuse(shown + " (" + reason + "): choose another place for it.");
 	requireMemory();
-	m_path = path;
+	m_file = std::move(file);
 }
 
 void CarriedTexture::readFaces(const MeshModel& model)
@@ -244,22 +180,22 @@ void CarriedTexture::loadPictures(const MeshModel& model)
 		if (face.picture < 0 || !m_pictures[ricci::positionOf(face.picture)].isNull())
 			continue;
 		const std::string& name = model.cm.textures[ricci::positionOf(face.picture)];
-		QImage image = host::texture(model, name);
+		host::Picture image = host::texture(model, name);
 		if (image.isNull())
 			refuse(
 				"The texture " + name +
 				" of the mesh cannot be loaded: put its file beside the mesh and open the mesh "
 				"again, or leave {carry_texture} empty.");
-		m_hasAlpha = m_hasAlpha || image.hasAlphaChannel();
-		m_hasWords = m_hasWords || hasWords(image);
-		m_pictures[ricci::positionOf(face.picture)] = image;
+		m_hasAlpha = m_hasAlpha || image.hasAlpha();
+		m_hasWords = m_hasWords || image.hasWords();
+		m_pictures[ricci::positionOf(face.picture)] = std::move(image);
 	}
 }
 
 std::vector<std::array<int, 2>> CarriedTexture::pictureSizes() const
 {
 	std::vector<std::array<int, 2>> sizes;
-	for (const QImage& picture : m_pictures)
+	for (const host::Picture& picture : m_pictures)
 		sizes.push_back({picture.width(), picture.height()});
 	return sizes;
 }
@@ -270,7 +206,7 @@ void CarriedTexture::fitSize()
 	double count = 0.0;
 	for (const ricci::TexturedFace& face : m_mesh.faces)
 		if (face.picture >= 0) {
-			const QImage& picture = m_pictures[ricci::positionOf(face.picture)];
+			const host::Picture& picture = m_pictures[ricci::positionOf(face.picture)];
 			const ricci::Triangle2 t = ricci::oldTexels(face, picture.width(), picture.height());
 			count += 0.5 * std::abs(ricci::doubledArea(t[0], t[1], t[2]));
 		}
@@ -286,7 +222,7 @@ void CarriedTexture::requireMemory() const
 {
 	const double sample = m_hasWords ? 8.0 : 4.0, square = static_cast<double>(m_size) * m_size;
 	double largest = 0.0, all = 0.0;
-	for (const QImage& picture : m_pictures) {
+	for (const host::Picture& picture : m_pictures) {
 		largest = std::max(largest, texels(picture));
 		all += texels(picture);
 	}
@@ -306,7 +242,7 @@ double CarriedTexture::minMargin() const
 	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMaxMargin) : 0.0;
 }
 
-void CarriedTexture::takeTriangles(const Flow::Result& result)
+void CarriedTexture::takeTriangles(const ricci::Parametrization& result)
 {
 	const ricci::FlatMesh& map = result.mesh;
 	m_mesh.triangles.reserve(ricci::positionOf(map.size()));
@@ -322,41 +258,17 @@ void CarriedTexture::takeTriangles(const Flow::Result& result)
 	}
 }
 
-void CarriedTexture::makeResult()
-{
-	const QImage::Format format =
-		m_hasWords ? (m_hasAlpha ? QImage::Format_RGBA64 : QImage::Format_RGBX64)
-				   : (m_hasAlpha ? QImage::Format_RGBA8888 : QImage::Format_RGBX8888);
-	m_result = QImage(m_size, m_size, format);
-	if (m_result.isNull())
-		throw std::bad_alloc();
-	m_result.fill(m_hasAlpha ? Qt::transparent : Qt::black);
-	const auto first = std::find_if(
-		m_pictures.begin(), m_pictures.end(), [](const QImage& image) { return !image.isNull(); });
-	if (first == m_pictures.end())
-		return;
-	m_result.setDotsPerMeterX(first->dotsPerMeterX());
-	m_result.setDotsPerMeterY(first->dotsPerMeterY());
-#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-	m_result.setColorSpace(first->colorSpace());
-#endif
-}
-
 void CarriedTexture::convertPictures()
 {
-	for (QImage& picture : m_pictures) {
+	const auto first = std::find_if(m_pictures.begin(), m_pictures.end(), [](const auto& picture) {
+		return !picture.isNull();
+	});
+	m_result = host::Picture(
+		m_size, m_hasWords, m_hasAlpha, first == m_pictures.end() ? nullptr : &*first);
+	for (host::Picture& picture : m_pictures) {
 		ricci::checkpoint();
-		if (picture.isNull())
-			continue;
-#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-		if (picture.colorSpace().isValid() && m_result.colorSpace().isValid() &&
-			picture.colorSpace() != m_result.colorSpace())
-			picture.convertToColorSpace(m_result.colorSpace());
-#endif
-		picture = std::move(picture).convertToFormat(
-			m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
-		if (picture.isNull())
-			throw std::bad_alloc();
+		if (!picture.isNull())
+			picture.convertFor(m_result);
 	}
 }
 
@@ -364,26 +276,24 @@ template<class Sample>
 void CarriedTexture::drawSamples()
 {
 	std::vector<ricci::PictureView<const Sample>> views;
-	for (const QImage& picture : m_pictures)
+	for (const host::Picture& picture : m_pictures)
 		views.push_back(
-			{picture.width(),
-			 picture.height(),
-			 reinterpret_cast<const Sample*>(picture.constBits())});
+			{picture.width(), picture.height(), static_cast<const Sample*>(picture.samples())});
 	ricci::carryTexture<Sample>(
 		m_mesh,
 		views,
 		m_hasAlpha,
-		{m_size, m_size, reinterpret_cast<Sample*>(m_result.bits())},
+		{m_size, m_size, static_cast<Sample*>(m_result.samples())},
 		ricci::defaultThreads());
 }
 
 void CarriedTexture::describe(Results& results) const
 {
 	int count = 0;
-	for (const QImage& picture : m_pictures)
+	for (const host::Picture& picture : m_pictures)
 		count += picture.isNull() ? 0 : 1;
 	const std::string side = std::to_string(m_size);
-	std::string line = "Texture: " + m_path.toStdString() + ", " + side + " x " + side + " texels";
+	std::string line = "Texture: " + m_file.name() + ", " + side + " x " + side + " texels";
 	const ricci::TexelDensity density =
 		ricci::texelDensity(m_mesh, m_areas, pictureSizes(), m_size);
 	if (density.ratio > 0.0) {
@@ -401,7 +311,7 @@ void CarriedTexture::describe(Results& results) const
 	ricci::logLine(line + ".");
 }
 
-void CarriedTexture::draw(const Flow::Result& result, Results& results)
+void CarriedTexture::draw(const ricci::Parametrization& result, Results& results)
 {
 	if (!isWanted())
 		return;
@@ -417,7 +327,6 @@ void CarriedTexture::draw(const Flow::Result& result, Results& results)
 				static_cast<double>(kMaxTextureSize)));
 		requireMemory();
 	}
-	makeResult();
 	convertPictures();
 	if (m_hasWords)
 		drawSamples<unsigned short>();
@@ -434,41 +343,36 @@ void CarriedTexture::write()
 {
 	if (!isWanted())
 		return;
-	m_file.setFileName(m_path);
-	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
-	if (m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) {
-		WatchedFile file(m_file, 0.25 * m_result.bytesPerLine() * m_result.height());
-		QImageWriter writer(&file, "png");
-		writer.setQuality(
-			70); // of compression: a sixth of the default's time, files a sixth larger
-		const bool written = writer.write(m_result);
-		file.rethrow();
-		if (written)
-			return;
-	}
-	refuseFile();
+	double bytes = 0.0;
+	const double expected =
+		0.25 * (m_hasWords ? 8.0 : 4.0) * static_cast<double>(m_size) * m_size; // roughly
+	require(m_result.writePng([&](const char* data, std::size_t size) {
+		bytes += static_cast<double>(size);
+		ricci::advance(bytes / (bytes + expected), "Writing the texture");
+		return m_file.write(data, size);
+	}));
 }
 
 void CarriedTexture::publish()
 {
-	if (isWanted() && !m_file.commit())
-		refuseFile();
+	if (isWanted())
+		require(m_file.publish());
 }
 
-void CarriedTexture::refuseFile() const
+void CarriedTexture::require(bool written) const
 {
-	const bool isKnown = m_file.error() != QFileDevice::NoError;
-	const std::string reason = isKnown ? m_file.errorString().toStdString() : "is the disk full?";
-	refuse(
-		"The texture " + m_path.toStdString() + " could not be written (" + reason +
-		"): choose another place for it. The mesh is unchanged.");
+	if (!written)
+		refuse(
+			"The texture " + m_file.name() + " could not be written (" +
+			(m_file.reason().empty() ? "is the disk full?" : m_file.reason()) +
+			"): choose another place for it. The mesh is unchanged.");
 }
 
 void CarriedTexture::assignTo(MeshModel& model) const
 {
 	if (!isWanted())
 		return;
-	host::setTexture(model, m_name.toStdString(), m_result);
+	host::setTexture(model, m_name, m_result);
 	// Coordinates of vertices, where there are some, belong to the old textures.
 	model.clearDataMask(MeshModel::MM_VERTTEXCOORD);
 	// Files of materials multiply the image by the colours of faces, which are in it or were the old images'.

@@ -5,14 +5,15 @@
 #define FILTER_RICCI_CARRIED_TEXTURE_H
 
 #include "bridge.h"
-#include "parameters.h"
+#include "output_file.h"
 
 #include <ricci/base/task.h>
 #include <ricci/texture/carry_texture.h>
 
-#include <QImage>
-#include <QSaveFile>
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
+#include <array>
+#include <string>
 #include <vector>
 
 namespace filter_ricci {
@@ -26,7 +27,7 @@ public:
 	CarriedTexture(const TextureSettings& settings, const MeshModel& model);
 
 	/// Otherwise the functions below do nothing.
-	bool isWanted() const { return !m_path.isEmpty(); }
+	bool isWanted() const { return m_file.isWanted(); }
 
 	/// Width and height, in texels.
 	int size() const { return m_size; }
@@ -37,9 +38,9 @@ public:
 
 	/// Draws the picture into memory and adds its result.
 	/// \throw ricci::Stopped, std::bad_alloc
-	void draw(const Flow::Result& result, Results& results);
+	void draw(const ricci::Parametrization& result, Results& results);
 
-	/// Writes the file beside its place.
+	/// Writes the file beside its place, where the host writes pictures.
 	/// \throw Refusal if there is no room for it, ricci::Stopped
 	void write();
 
@@ -57,25 +58,23 @@ private:
 
 	std::vector<std::array<int, 2>> pictureSizes() const;
 	void fitSize();
-	void takeTriangles(const Flow::Result& result);
-	void makeResult();
+	void takeTriangles(const ricci::Parametrization& result);
 	void convertPictures();
 	template<class Sample>
 	void drawSamples();
 	void describe(Results& results) const;
-	[[noreturn]] void refuseFile() const;
+	void require(bool written) const;
 
-	QString m_path;      ///< empty: no texture is wanted
-	QString m_name;      ///< that the mesh gets
+	OutputFile m_file;
+	std::string m_name;  ///< that the mesh gets
 	int m_size = 0;      ///< if it is to fit, the least that it may become before the map is known
 	bool m_fits = false; ///< it is to have texels as fine as the old ones
 	ricci::CarriedMesh m_mesh;   // its faces are those of the mesh, its triangles those of the map
 	std::vector<double> m_areas; // [face]
-	std::vector<QImage> m_pictures; // [texture of the mesh] null where no face has it
+	std::vector<host::Picture> m_pictures; // [texture of the mesh] null where no face has it
 	bool m_hasAlpha = false, m_hasWords = false;
 	int m_uncoloured = 0; ///< faces with neither texture nor colour
-	QImage m_result;
-	QSaveFile m_file;
+	host::Picture m_result;
 };
 
 } // namespace filter_ricci

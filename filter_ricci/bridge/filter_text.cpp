@@ -1,14 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge.h"
+#include "filter_text.h"
 
+#include "parameters.h"
+
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 
 namespace filter_ricci {
 
+namespace {
+
+std::string quoted(const std::string& text)
+{
+	std::string json = "\"";
+	for (const char c : text) {
+		if (c == '"' || c == '\\')
+			json += '\\';
+		json += c;
+	}
+	return json + "\"";
+}
+
+struct Kind
+{
+	const char* name;
+	std::string value; ///< as JSON
+};
+
+Kind kindOf(const Parameter& p)
+{
+	std::ostringstream text;
+	text.imbue(std::locale::classic());
+	text << std::setprecision(std::numeric_limits<double>::digits10);
+	if (const int* const number = std::get_if<int>(&p.value)) {
+		if (!p.choices.empty())
+			return {"enum", quoted(p.choices.at(static_cast<std::size_t>(*number)))};
+		text << *number;
+		return {"int", text.str()};
+	}
+	if (const bool* const isOn = std::get_if<bool>(&p.value))
+		return {"bool", *isOn ? "true" : "false"};
+	if (const double* const number = std::get_if<double>(&p.value)) {
+		text << *number;
+		return {"float", text.str()};
+	}
+	return {"file", quoted(std::get<std::string>(p.value))};
+}
+
+std::string described(const Parameter& p)
+{
+	const Kind kind = kindOf(p);
+	std::string json = "{\"name\":" + quoted(p.name) + ",\"label\":" + quoted(p.label) +
+					   ",\"tooltip\":" + quoted(p.tooltip) +
+					   ",\"advanced\":" + (p.isAdvanced ? "true" : "false") + ",\"type\":\"" +
+					   kind.name + "\",\"default\":" + kind.value;
+	for (std::size_t i = 0; i < p.choices.size(); ++i)
+		json += (i == 0 ? ",\"choices\":[" : ",") + quoted(p.choices[i]);
+	if (!p.choices.empty())
+		json += "]";
+	if (!p.files.empty())
+		json += ",\"files\":" + quoted(p.files);
+	return json + "}";
+}
+
+std::string describedFilter(int filter)
+{
+	const FilterText text = filterText(filter);
+	std::string json = "{\"name\":" + quoted(text.name) +
+					   ",\"python_name\":" + quoted(text.pythonName) +
+					   ",\"info\":" + quoted(text.info) + ",\"parameters\":";
+	char before = '[';
+	for (const Parameter& p : filterParameters(filter)) {
+		json += before + described(p);
+		before = ',';
+	}
+	return json + "]}";
+}
+
+} // namespace
+
 FilterText filterText(int filter)
 {
-	const QString reference = "<br>See: Yang, Guo, Luo, Hu, Gu, <i>Generalized Discrete Ricci "
-							  "Flow</i>, Computer Graphics Forum 28(7), 2009.";
+	const std::string reference = "<br>See: Yang, Guo, Luo, Hu, Gu, <i>Generalized Discrete Ricci "
+								  "Flow</i>, Computer Graphics Forum 28(7), 2009.";
 	switch (filter) {
 	case Euclidean:
 		return {
@@ -32,6 +109,11 @@ FilterText filterText(int filter)
 	default:
 		throw std::logic_error("This plugin has no filter with that id.");
 	}
+}
+
+std::string filterDescriptions()
+{
+	return "[" + describedFilter(Euclidean) + "," + describedFilter(Hyperbolic) + "]";
 }
 
 } // namespace filter_ricci

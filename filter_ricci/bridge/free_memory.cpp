@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "free_memory.h"
 
+#if defined(_WIN32)
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <mach/mach.h>
+#include <sys/sysctl.h>
+#endif
+
 #include <algorithm>
 #include <fstream>
 #include <locale>
@@ -10,6 +20,45 @@
 namespace filter_ricci {
 
 namespace {
+
+#if defined(_WIN32)
+
+/// Of the machine, which gives memory to a process only as long as it could be paged out.
+double freeOfSystem()
+{
+	MEMORYSTATUSEX status = {};
+	status.dwLength = sizeof(status);
+	if (!GlobalMemoryStatusEx(&status))
+		return 0.0;
+	return static_cast<double>(std::min(status.ullAvailPageFile, status.ullAvailVirtual));
+}
+
+#elif defined(__APPLE__)
+
+/// Of the machine: pages that nobody holds or that can be dropped, and what is left of the swap files there are.
+double freeOfSystem()
+{
+	vm_statistics64_data_t pages = {};
+	mach_msg_type_number_t count = HOST_VM_INFO64_COUNT;
+	vm_size_t size = 0;
+	const mach_port_t host = mach_host_self();
+	const bool isKnown =
+		host_page_size(host, &size) == KERN_SUCCESS &&
+		host_statistics64(host, HOST_VM_INFO64, reinterpret_cast<host_info64_t>(&pages), &count) ==
+			KERN_SUCCESS;
+	mach_port_deallocate(mach_task_self(), host);
+	if (!isKnown)
+		return 0.0;
+	xsw_usage swap = {};
+	std::size_t length = sizeof(swap);
+	if (sysctlbyname("vm.swapusage", &swap, &length, nullptr, 0) != 0)
+		swap = {};
+	const double free =
+		static_cast<double>(pages.free_count) + pages.inactive_count + pages.purgeable_count;
+	return free * static_cast<double>(size) + static_cast<double>(swap.xsu_avail);
+}
+
+#else
 
 /// The number in a file that holds nothing else; -1 if there is none ("max").
 double numberIn(const std::string& path)
@@ -68,9 +117,7 @@ constexpr ControlGroup kControlGroups[] = {
 	 "memory.usage_in_bytes",
 	 "total_inactive_file"}};
 
-} // namespace
-
-double freeMemory(const std::string& root)
+double freeBelow(const std::string& root)
 {
 	constexpr double kKilobyte = 1024.0;
 	const std::string machine = root + "proc/meminfo";
@@ -87,6 +134,19 @@ double freeMemory(const std::string& root)
 	if (free > 0.0 && addresses > 0.0)
 		free = std::min(free, addresses);
 	return free;
+}
+
+#endif
+
+} // namespace
+
+double freeMemory([[maybe_unused]] const std::string& root)
+{
+#if defined(_WIN32) || defined(__APPLE__)
+	return freeOfSystem();
+#else
+	return freeBelow(root);
+#endif
 }
 
 } // namespace filter_ricci

@@ -1,14 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The parameters of the filters, once for all hosts: dialogs, the pages of the manual and the signatures in Python
+// are made from this table.
 #ifndef FILTER_RICCI_PARAMETERS_H
 #define FILTER_RICCI_PARAMETERS_H
 
-#include "bridge.h"
+#include "filter_text.h"
 
-#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+#include <ricci/options.h>
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace filter_ricci {
 
-using Flow = vcg::tri::RicciFlow<CMeshO>;
+/// A parameter as it is shown, and its value.
+struct Parameter
+{
+	/// Of a choice its number, of a file its path in UTF-8.
+	using Value = std::variant<bool, int, double, std::string>;
+
+	std::string name;                 ///< in scripts
+	Value value;                      ///< the default, until another one is set
+	std::vector<std::string> choices; ///< empty: it is none
+	std::string label, tooltip;       ///< the tooltip in HTML
+	std::string files;                ///< of a file to be written: the pattern of a dialog
+	bool isAdvanced = false;          ///< few runs need it
+};
+
+/// In the order of the dialog.
+using Parameters = std::vector<Parameter>;
+
+/// Those of a filter, with their defaults.
+Parameters filterParameters(int filter);
+
+/// The parameter of that name; null if there is none.
+const Parameter* findParameter(const Parameters& parameters, const std::string& name);
+inline Parameter* findParameter(Parameters& parameters, const std::string& name)
+{
+	return const_cast<Parameter*>(findParameter(std::as_const(parameters), name));
+}
+
+/// The value of a parameter that is there, of its own type.
+template<class T>
+const T& valueOf(const Parameters& parameters, const char* name)
+{
+	return std::get<T>(findParameter(parameters, name)->value);
+}
 
 /// Where the surface is opened before the flow.
 enum class Seams {
@@ -23,7 +62,7 @@ constexpr int kMinTextureSize = 16, kMaxTextureSize = 16384;
 
 struct TextureSettings
 {
-	QString file;    ///< empty: none
+	std::string file; ///< empty: none
 	int size = 2048; ///< texels; 0: as many as the old ones need, which are so as fine as they were
 };
 
@@ -34,19 +73,19 @@ struct RunSettings
 	bool colorize = false;
 	bool flatLayer = false;
 	double timeLimit = 0.0; ///< seconds, 0: none
-	QString report;         ///< file, empty: none
+	std::string report;     ///< file, empty: none
 	TextureSettings texture;
 };
 
 struct Settings : RunSettings
 {
-	Flow::Params flow;
+	ricci::Options flow;
 	bool sphereLayer = false;
 };
 
 struct HyperbolicSettings : RunSettings
 {
-	Flow::HyperbolicParams flow;
+	ricci::HyperbolicOptions flow;
 	int coverRings = 0;
 	bool axes = false;
 	bool canonicalPolygon = false;
@@ -56,8 +95,8 @@ struct HyperbolicSettings : RunSettings
 /// checks the range of a number.
 /// \throw Refusal for what the algorithm does not know (choices, time limit, rings), and
 /// ricci::InvalidOption
-Settings readSettings(const RichParameterList& par);
-HyperbolicSettings readHyperbolicSettings(const RichParameterList& par);
+Settings readSettings(const Parameters& par);
+HyperbolicSettings readHyperbolicSettings(const Parameters& par);
 
 } // namespace filter_ricci
 

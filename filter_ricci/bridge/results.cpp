@@ -62,12 +62,12 @@ std::string keyValueLine(Results::const_iterator begin, Results::const_iterator 
 	return line.str();
 }
 
-template<class Value>
-Value valueOf(const Results& results, const char* key)
+template<class T>
+T resultOf(const Results& results, const char* key)
 {
 	for (const auto& [name, value] : results)
 		if (name == key)
-			return std::get<Value>(value);
+			return std::get<T>(value);
 	throw std::logic_error(std::string("There is no result ") + key + ".");
 }
 
@@ -252,22 +252,22 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 
 std::string toSentence(const Results& results, const std::string& choice)
 {
-	const int charts = valueOf<int>(results, "charts");
-	const int cones = valueOf<int>(results, "cones");
+	const int charts = resultOf<int>(results, "charts");
+	const int cones = resultOf<int>(results, "cones");
 	const int flipped =
-		valueOf<int>(results, "flipped_faces") + valueOf<int>(results, "flipped_by_rounding");
-	const int overlapping = valueOf<int>(results, "overlapping_faces");
+		resultOf<int>(results, "flipped_faces") + resultOf<int>(results, "flipped_by_rounding");
+	const int overlapping = resultOf<int>(results, "overlapping_faces");
 	std::ostringstream line;
 	line.imbue(std::locale::classic());
 	line.precision(2);
 	if (!choice.empty())
 		line << "Automatic chose " << choice << ". ";
-	line << "Curvature within " << valueOf<double>(results, "max_curvature_error")
-		 << " rad of the target after " << valueOf<int>(results, "iterations")
+	line << "Curvature within " << resultOf<double>(results, "max_curvature_error")
+		 << " rad of the target after " << resultOf<int>(results, "iterations")
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
-		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
-		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped
-		 << (flipped == 1 ? " flipped face, " : " flipped faces, ");
+		 << resultOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
+		 << "by a factor of " << resultOf<double>(results, "area_distortion_mean") << ", "
+		 << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ");
 	if (overlapping > 0)
 		line << overlapping << (overlapping == 1 ? " overlapping face, " : " overlapping faces, ");
 	line << cones << (cones == 1 ? " cone, " : " cones, ") << charts
@@ -275,10 +275,10 @@ std::string toSentence(const Results& results, const std::string& choice)
 	return line.str();
 }
 
-std::vector<std::string> doubts(int filter, const Results& results, const RichParameterList& par)
+std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par)
 {
-	const auto is = [&](const char* id, int value) { return par.getEnum(id) == value; };
-	const double qc = valueOf<double>(results, "qc_area_mean");
+	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
+	const double qc = resultOf<double>(results, "qc_area_mean");
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(
@@ -294,14 +294,14 @@ std::vector<std::string> doubts(int filter, const Results& results, const RichPa
 				"The new image is coarser than the old ones, with " +
 				ricci::numberText(std::get<double>(value), 2) +
 				" of their texels for a unit of length. " +
-				(par.getInt("texture_size") == 0 ? "It has the largest size that there is."
-												 : "{texture_size} 0 keeps them all."));
+				(valueOf<int>(par, "texture_size") == 0 ? "It has the largest size that there is."
+														: "{texture_size} 0 keeps them all."));
 	if (filter == Hyperbolic)
 		return lines; // a hyperbolic metric has areas of its own
 	const bool isAutomatic = is("target_curvature", 0);
-	const double areas = valueOf<double>(results, "area_distortion_mean");
-	const double occupancy = valueOf<double>(results, "occupancy");
-	const int overlapping = valueOf<int>(results, "overlapping_faces");
+	const double areas = resultOf<double>(results, "area_distortion_mean");
+	const double occupancy = resultOf<double>(results, "occupancy");
+	const int overlapping = resultOf<int>(results, "overlapping_faces");
 	if (overlapping > 0 &&
 		(is("target_curvature", static_cast<int>(ricci::TargetCurvature::Disk)) ||
 		 is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle))))
@@ -329,7 +329,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const RichPa
 
 double colourRampTop(const Results& results)
 {
-	return std::max(valueOf<double>(results, "qc_p99"), 1.0 + 1e-6);
+	return std::max(resultOf<double>(results, "qc_p99"), 1.0 + 1e-6);
 }
 
 std::string colourRamp(const Results& results)

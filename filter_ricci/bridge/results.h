@@ -2,15 +2,20 @@
 #ifndef FILTER_RICCI_RESULTS_H
 #define FILTER_RICCI_RESULTS_H
 
-#include "bridge.h"
+#include "parameters.h"
 
 #include <ricci/layout/parametrization.h>
 #include <ricci/sphere_map.h>
 
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace filter_ricci {
+
+using Value = std::variant<bool, int, double, std::vector<double>>;
+using Results = std::vector<std::pair<std::string, Value>>;
 
 /// The report under the names that scripts read; an invariant that does not exist is left out.
 Results toResults(const ricci::Report& report);
@@ -33,7 +38,7 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results);
 std::string toSentence(const Results& results, const std::string& choice);
 
 /// What makes the use of the map doubtful, and what helps.
-std::vector<std::string> doubts(int filter, const Results& results, const RichParameterList& par);
+std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par);
 
 /// The distortion from which on "Colour by distortion" paints red: the 99th percentile over the faces,
 /// and above 1 also where nothing is distorted, for a ramp needs two ends.

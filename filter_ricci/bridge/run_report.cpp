@@ -4,8 +4,6 @@
 #include "charts_picture.h"
 #include "error_sentences.h"
 #include "histogram.h"
-#include "output_path.h"
-#include "results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -271,55 +269,32 @@ void addHistogram(std::ostream& csv, const char* start, const Histogram& h)
 	csv << start << h.high << "," << h.above << "\n";
 }
 
-void require(bool written, const QSaveFile& file)
+void require(bool written, const OutputFile& file)
 {
 	if (!written)
 		throw Refusal(
-			"The report " + file.fileName().toStdString() + " could not be written (" +
-			file.errorString().toStdString() +
+			"The report " + file.name() + " could not be written (" + file.reason() +
 			"): choose another place for it. The mesh is unchanged.");
 }
 
-/// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
-void fill(QSaveFile& file, const std::string& content)
+void fill(OutputFile& file, const std::string& content)
 {
-	require(file.open(QIODevice::WriteOnly | QIODevice::Unbuffered), file);
-	const auto size = static_cast<qint64>(content.size());
-	for (qint64 done = 0, written = 0; done < size; done += written) {
-		written = file.write(content.data() + done, size - done);
-		require(written > 0, file);
-	}
+	require(file.write(content.data(), content.size()), file);
 }
 
 } // namespace
 
-std::vector<ReportLine> settingsAsText(const RichParameterList& par)
+std::vector<ReportLine> settingsAsText(const Parameters& par)
 {
 	std::vector<ReportLine> settings;
-	for (const RichParameter& p : par) {
+	for (const Parameter& p : par) {
 		std::ostringstream value = plainStream(7);
-		if (const auto* choice = dynamic_cast<const RichEnum*>(&p)) {
-			const int chosen = par.getEnum(p.name());
-			// A script's list of choices is its own: the names are those of the filter, if any.
-			value
-				<< (chosen >= 0 && chosen < choice->enumvalues.size()
-						? choice->enumvalues[chosen].toStdString()
-						: std::to_string(chosen));
-		}
-		else if (dynamic_cast<const RichBool*>(&p) != nullptr)
-			value << par.getBool(p.name());
-		else if (dynamic_cast<const RichInt*>(&p) != nullptr)
-			value << par.getInt(p.name());
-		else if (dynamic_cast<const RichFloat*>(&p) != nullptr)
-			value << par.getFloat(p.name());
-		else if (
-			dynamic_cast<const host::FileToSave*>(&p) != nullptr ||
-			dynamic_cast<const RichString*>(&p) != nullptr)
-			value << host::text(par, p.name()).toStdString();
+		const int* const chosen = p.choices.empty() ? nullptr : std::get_if<int>(&p.value);
+		if (chosen != nullptr)
+			value << p.choices.at(static_cast<std::size_t>(*chosen));
 		else
-			continue;
-		settings.push_back(
-			{p.name().toStdString(), p.fieldDescription().toStdString(), value.str()});
+			std::visit([&](const auto& x) { value << x; }, p.value);
+		settings.push_back({p.name, p.label, value.str()});
 	}
 	return settings;
 }
@@ -382,46 +357,45 @@ std::string toCsv(const RunReport& report)
 	return csv.str();
 }
 
-ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
+ReportFiles::ReportFiles(const std::string& wanted, const std::string& folder)
 {
-	const QString trimmed = wanted.trimmed();
-	if (trimmed.isEmpty())
+	if (wanted.empty())
 		return;
-	const QString path = absolutePath(trimmed, folder);
-	const QString ending = QFileInfo(path).suffix().toLower();
+	const std::filesystem::path path = absolutePath(wanted, folder);
+	const std::string ending = endingOf(path);
 	if (ending != "html" && ending != "csv")
 		throw Refusal(
-			"The report " + trimmed.toStdString() +
+			"The report " + wanted +
 			" cannot be written: its name must end in .html (page, and its data beside it) or .csv "
 			"(data alone).");
 	if (ending == "html")
-		m_page.setFileName(path);
-	m_data.setFileName(ending == "csv" ? path : path.left(path.size() - ending.size()) + "csv");
-	for (const QSaveFile* file : {&m_page, &m_data}) {
-		const QString name = file->fileName();
-		const QString reason = name.isEmpty() ? QString() : whyNotWritable(name);
-		if (!reason.isEmpty())
+		m_page = OutputFile(path);
+	m_data =
+		OutputFile(ending == "csv" ? path : std::filesystem::path(path).replace_extension("csv"));
+	for (OutputFile* file : {&m_page, &m_data}) {
+		const std::string reason = file->isWanted() ? file->whyNotWritable() : "";
+		if (!reason.empty())
 			throw Refusal(
-				"The report " + name.toStdString() + " cannot be written (" + reason.toStdString() +
+				"The report " + file->name() + " cannot be written (" + reason +
 				"): choose another place for it.");
 	}
 }
 
 void ReportFiles::write(const RunReport& report)
 {
-	if (!m_page.fileName().isEmpty())
+	if (m_page.isWanted())
 		fill(m_page, toHtml(report));
-	if (!m_data.fileName().isEmpty())
+	if (m_data.isWanted())
 		fill(m_data, toCsv(report));
 }
 
 std::vector<std::string> ReportFiles::publish()
 {
 	std::vector<std::string> written;
-	for (QSaveFile* file : {&m_page, &m_data})
-		if (file->isOpen()) {
-			require(file->commit(), *file);
-			written.push_back(file->fileName().toStdString());
+	for (OutputFile* file : {&m_page, &m_data})
+		if (file->isWanted()) {
+			require(file->publish(), *file);
+			written.push_back(file->name());
 		}
 	return written;
 }

@@ -3,11 +3,10 @@
 #ifndef FILTER_RICCI_RUN_REPORT_H
 #define FILTER_RICCI_RUN_REPORT_H
 
-#include "bridge.h"
+#include "output_file.h"
+#include "results.h"
 
 #include <ricci/layout/parametrization.h>
-
-#include <QSaveFile>
 
 #include <string>
 #include <vector>
@@ -31,7 +30,7 @@ struct RunReport
 };
 
 /// The parameters as text, choices by their names.
-std::vector<ReportLine> settingsAsText(const RichParameterList& par);
+std::vector<ReportLine> settingsAsText(const Parameters& par);
 
 /// The page: the charts, histograms of the distortion and of the area factors, residual of every Newton
 /// step, tables of results and settings; pictures are SVG inside it. UTF-8.
@@ -48,10 +47,10 @@ std::string toCsv(const RunReport& report);
 class ReportFiles
 {
 public:
-	/// \param wanted a path that ends in .html (page, and data beside it) or in .csv (data alone);
-	/// a relative one starts from \p folder; empty: no report
+	/// \param wanted a path that ends in .html (page, and data beside it) or in .csv (data alone), see
+	/// absolutePath(); empty: no report
 	/// \throw Refusal if no file can be written there; nothing has been written then
-	ReportFiles(const QString& wanted, const QString& folder);
+	ReportFiles(const std::string& wanted, const std::string& folder);
 
 	/// Writes the files beside their places.
 	/// \throw Refusal if one cannot be written after all (a full disk)
@@ -63,7 +62,7 @@ public:
 	std::vector<std::string> publish();
 
 private:
-	QSaveFile m_page, m_data; // without a name: not wanted
+	OutputFile m_page, m_data; // without a name: not wanted
 };
 
 } // namespace filter_ricci

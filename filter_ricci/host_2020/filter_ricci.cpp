@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_ricci.h"
 
-#include "bridge.h"
+#include "meshlab.h"
 
 #include <QApplication>
 #include <QDockWidget>
@@ -91,12 +91,12 @@ QString FilterRicciPlugin::pluginName() const
 
 QString FilterRicciPlugin::filterName(FilterIDType filter) const
 {
-	return filter_ricci::filterText(filter).name;
+	return QString::fromStdString(filter_ricci::filterText(filter).name);
 }
 
 QString FilterRicciPlugin::filterInfo(FilterIDType filter) const
 {
-	return filter_ricci::filterText(filter).info;
+	return QString::fromStdString(filter_ricci::filterText(filter).info);
 }
 
 FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(QAction*)
@@ -122,7 +122,7 @@ int FilterRicciPlugin::postCondition(QAction*) const
 // The variant with a document, because the host's default asks a document without a mesh for one.
 void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
 {
-	RichParameterList list = filter_ricci::filterParameters(ID(action));
+	RichParameterList list = filter_ricci::richParameters(ID(action));
 	for (RichParameter& parameter : list)
 		Help::breakLines(parameter);
 	par.join(list);
@@ -135,8 +135,9 @@ bool FilterRicciPlugin::applyFilter(
 {
 	errorMessage.clear();
 	try {
-		const auto toLog = [this](const std::string& line) { Log(line); };
-		filter_ricci::applyFilter(ID(action), par, md, cb, toLog);
+		const int filter = ID(action);
+		filter_ricci::HostProgress progress(cb, [this](const std::string& line) { Log(line); });
+		filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
 		return true;
 	}
 	catch (...) {

@@ -5,10 +5,11 @@
 
 #include <common/interfaces.h>
 
-#include <QCoreApplication>
-#include <QDir>
-#include <QImage>
+#include "documents.h"
 
+#include <QDir>
+
+#include <filesystem>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -24,12 +25,6 @@ namespace filter_ricci::host {
 /// Of the entry of the menu Render that draws the histogram of the vertex quality.
 constexpr const char* kHistogramName = "Show Quality Histogram";
 
-/// meshlabserver has none, and no settings of an organization.
-inline bool hasWindow()
-{
-	return !QCoreApplication::organizationName().isEmpty();
-}
-
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {
 	md.delMesh(mesh);
@@ -42,16 +37,16 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 }
 
 /// Null if there is no such file, or none that Qt can read.
-inline QImage texture(const MeshModel& model, const std::string& name)
+inline Picture texture(const MeshModel& model, const std::string& name)
 {
 	const QString file = QString::fromStdString(name);
 	const QImage beside(QDir(model.pathName()).absoluteFilePath(file));
-	return beside.isNull() ? QImage(file) : beside;
+	return Picture(beside.isNull() ? QImage(file) : beside);
 }
 
 /// Makes an image, which has been written, the only texture. The window looks for it in the folder of
 /// the process; meshlabserver needs that folder for what it writes.
-inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
+inline void setTexture(MeshModel& model, const std::string& name, const Picture&)
 {
 	model.cm.textures.assign(1, name);
 	if (hasWindow())
@@ -60,10 +55,12 @@ inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
 
 /// The name of a texture by which this host finds its file: below the folder of the mesh from there,
 /// elsewhere by its path.
-inline QString textureName(const QString& path, const QString& folder)
+inline std::string
+textureName(const std::filesystem::path& path, const std::filesystem::path& folder)
 {
-	const QString relative = QDir(folder).relativeFilePath(path);
-	return QDir::isRelativePath(relative) && !relative.startsWith("..") ? relative : path;
+	const std::filesystem::path relative = path.lexically_relative(folder);
+	const bool isBelow = !relative.empty() && *relative.begin() != "..";
+	return (isBelow ? relative : path).generic_u8string();
 }
 
 /// A parameter that few runs need. This host knows no difference.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_ricci.h"
 
-#include "bridge.h"
+#include "meshlab.h"
 
 namespace {
 
@@ -47,17 +47,17 @@ QString FilterRicciPlugin::vendor() const
 
 QString FilterRicciPlugin::filterName(ActionIDType filter) const
 {
-	return filter_ricci::filterText(filter).name;
+	return QString::fromStdString(filter_ricci::filterText(filter).name);
 }
 
 QString FilterRicciPlugin::pythonFilterName(ActionIDType filter) const
 {
-	return filter_ricci::filterText(filter).pythonName;
+	return QString::fromStdString(filter_ricci::filterText(filter).pythonName);
 }
 
 QString FilterRicciPlugin::filterInfo(ActionIDType filter) const
 {
-	return filter_ricci::filterText(filter).info;
+	return QString::fromStdString(filter_ricci::filterText(filter).info);
 }
 
 FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(const QAction*) const
@@ -83,7 +83,7 @@ int FilterRicciPlugin::postCondition(const QAction*) const
 // The variant with a document, because the host's default asks a document without a mesh for one.
 RichParameterList FilterRicciPlugin::initParameterList(const QAction* action, const MeshDocument&)
 {
-	return filter_ricci::filterParameters(ID(action));
+	return filter_ricci::richParameters(ID(action));
 }
 
 std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
@@ -94,8 +94,11 @@ std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
 	vcg::CallBackPos* cb)
 {
 	try {
-		const auto toLog = [this](const std::string& line) { this->log(line); };
-		const auto outcome = filter_ricci::applyFilter(ID(action), par, md, cb, toLog);
+		const int filter = ID(action);
+		filter_ricci::HostProgress progress(
+			cb, [this](const std::string& line) { this->log(line); });
+		const auto outcome =
+			filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
 		postConditionMask = static_cast<unsigned int>(outcome.changedElements);
 		return toMap(outcome.results);
 	}

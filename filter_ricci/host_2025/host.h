@@ -5,10 +5,9 @@
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
-#include <QCoreApplication>
-#include <QFileInfo>
-#include <QImage>
+#include "documents.h"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -16,12 +15,6 @@ namespace filter_ricci::host {
 
 /// Of the entry of the menu Render that draws the histogram of the vertex quality.
 constexpr const char* kHistogramName = "Show Vertex Quality Histogram";
-
-/// PyMeshLab has none, and no settings of an organization.
-inline bool hasWindow()
-{
-	return !QCoreApplication::organizationName().isEmpty();
-}
 
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {
@@ -35,27 +28,28 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 }
 
 /// Null where the host found none when it opened the mesh: then it shows an image of its own.
-inline QImage texture(const MeshModel& model, const std::string& name)
+inline Picture texture(const MeshModel& model, const std::string& name)
 {
 	const QImage image = model.getTexture(name);
 	if (name == "dummy.png")
 		for (const char* own : {":/resources/images/dummy.png", ":/img/dummy.png"})
 			if (image == QImage(own))
-				return QImage();
-	return image;
+				return Picture();
+	return Picture(image);
 }
 
 /// Makes an image the only texture.
-inline void setTexture(MeshModel& model, const std::string& name, const QImage& image)
+inline void setTexture(MeshModel& model, const std::string& name, const Picture& picture)
 {
 	model.clearTextures();
-	model.addTexture(name, image);
+	model.addTexture(name, picture.image());
 }
 
 /// The name of a texture. This host keeps the image, and writes it beside the mesh when that is saved.
-inline QString textureName(const QString& path, const QString& /*folder*/)
+inline std::string
+textureName(const std::filesystem::path& path, const std::filesystem::path& /*folder*/)
 {
-	return QFileInfo(path).fileName();
+	return path.filename().u8string();
 }
 
 /// A parameter that few runs need: the dialog shows it on request only.

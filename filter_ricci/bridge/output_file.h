@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef FILTER_RICCI_OUTPUT_FILE_H
+#define FILTER_RICCI_OUTPUT_FILE_H
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace filter_ricci {
+
+/// The place that \p wanted names; a relative one starts from \p folder, or where this is empty from the folder of the
+/// process. Both are in UTF-8.
+std::filesystem::path absolutePath(const std::string& wanted, const std::string& folder);
+
+/// What stands behind the last point of a file's name, in lower case; empty if there is none.
+std::string endingOf(const std::filesystem::path& path);
+
+/// A file that is written beside its place and moved there at the end. Unless that is done nothing is left behind.
+class OutputFile
+{
+public:
+	/// None.
+	OutputFile() = default;
+	/// \param path absolute; where it is a link, the file is written to which that leads
+	explicit OutputFile(const std::filesystem::path& path);
+
+	/// Whether there is a file to be written.
+	bool isWanted() const { return !m_path.empty(); }
+
+	/// Its place, in UTF-8.
+	std::string name() const { return m_path.u8string(); }
+
+	/// The reason why it cannot be written; empty if it can. Files are as they were.
+	std::string whyNotWritable();
+
+	/// Appends bytes to the file beside its place. \return false if that fails
+	bool write(const char* data, std::size_t size);
+
+	/// Moves the file to its place, if it was written. \return false if that fails
+	bool publish();
+
+	/// Why write() or publish() has failed.
+	const std::string& reason() const { return m_reason; }
+
+private:
+	/// Opened, and removed again unless it has been moved.
+	struct Open
+	{
+		std::FILE* stream = nullptr;
+		std::filesystem::path path;
+		bool close();
+		~Open();
+	};
+
+	bool open();
+	bool fail();
+
+	std::filesystem::path m_path;
+	std::unique_ptr<Open> m_open;
+	std::string m_reason;
+};
+
+} // namespace filter_ricci
+
+#endif

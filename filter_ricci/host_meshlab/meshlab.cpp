@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshlab.h"
+
+#include <QStringList>
+
+#include <algorithm>
+#include <utility>
+
+namespace filter_ricci {
+
+thread_local vcg::CallBackPos* listener = nullptr;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Between two calls of a listener, which may be slow.
+constexpr std::chrono::milliseconds kListenerPause(50);
+
+/// Adds the host's kind of parameter.
+template<class Rich, class... Arguments>
+void add(RichParameterList& list, const Parameter& p, const Arguments&... arguments)
+{
+	const QString name = QString::fromStdString(p.name), label = QString::fromStdString(p.label),
+				  tooltip = QString::fromStdString(p.tooltip);
+	if (p.isAdvanced)
+		list.addParam(host::advanced<Rich>(name, arguments..., label, tooltip));
+	else
+		list.addParam(Rich(name, arguments..., label, tooltip));
+}
+
+} // namespace
+
+RichParameterList richParameters(int filter)
+{
+	RichParameterList list;
+	for (const Parameter& p : filterParameters(filter)) {
+		if (const bool* const isOn = std::get_if<bool>(&p.value))
+			add<RichBool>(list, p, *isOn);
+		else if (const double* const number = std::get_if<double>(&p.value))
+			add<RichFloat>(list, p, static_cast<Scalarm>(*number));
+		else if (const int* const whole = std::get_if<int>(&p.value)) {
+			QStringList choices;
+			for (const std::string& choice : p.choices)
+				choices << QString::fromStdString(choice);
+			if (choices.isEmpty())
+				add<RichInt>(list, p, *whole);
+			else
+				add<RichEnum>(list, p, *whole, choices);
+		}
+		else
+			add<host::FileToSave>(list, p, QString(), QString::fromStdString(p.files));
+	}
+	return list;
+}
+
+Parameters fromRich(int filter, const RichParameterList& par)
+{
+	Parameters parameters = filterParameters(filter);
+	for (Parameter& p : parameters) {
+		const QString name = QString::fromStdString(p.name);
+		const bool isGiven = par.hasParameter(name);
+		if (double* const number = std::get_if<double>(&p.value))
+			// The default, too, is a number of the host.
+			*number =
+				static_cast<double>(isGiven ? par.getFloat(name) : static_cast<Scalarm>(*number));
+		else if (!isGiven)
+			continue;
+		else if (bool* const isOn = std::get_if<bool>(&p.value))
+			*isOn = par.getBool(name);
+		else if (int* const whole = std::get_if<int>(&p.value))
+			*whole = p.choices.empty() ? par.getInt(name) : par.getEnum(name);
+		else
+			p.value = host::text(par, name).toStdString();
+	}
+	return parameters;
+}
+
+HostProgress::HostProgress(vcg::CallBackPos* callback, Log log) :
+		m_callback(callback), m_log(std::move(log))
+{
+}
+
+void HostProgress::log(const std::string& line)
+{
+	m_log(line);
+}
+
+bool HostProgress::update(double fraction, const std::string& what)
+{
+	const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
+	if (m_callback != nullptr && !m_callback(percent, host::progressText(what).c_str()))
+		return false;
+	if (listener == nullptr || Clock::now() < m_nextTold)
+		return true;
+	const bool goesOn = listener(percent, what.c_str());
+	m_nextTold = Clock::now() + kListenerPause;
+	return goesOn;
+}
+
+} // namespace filter_ricci

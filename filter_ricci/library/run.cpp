@@ -1,0 +1,590 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run.h"
+
+#include "bridge.h"
+
+#include <vcg/complex/algorithms/update/bounding.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <locale>
+#include <new>
+#include <sstream>
+#include <utility>
+
+namespace filter_ricci {
+
+namespace {
+
+/// Beyond these, products of lengths are no memory of any machine.
+constexpr int64_t kMaxLength = std::numeric_limits<int32_t>::max();
+constexpr double kMaxBytes = 1e15;
+
+std::size_t bytesOf(int32_t type)
+{
+	switch (type) {
+	case RICCI_BOOL:
+	case RICCI_UINT8:
+		return 1;
+	case RICCI_UINT16:
+		return 2;
+	case RICCI_INT32:
+	case RICCI_FLOAT32:
+		return 4;
+	case RICCI_INT64:
+	case RICCI_FLOAT64:
+		return 8;
+	default:
+		throw Misuse("There is no type of arrays " + std::to_string(type) + ": see ricci_type.");
+	}
+}
+
+std::size_t entriesOf(const ricci_array& array)
+{
+	std::size_t count = 1;
+	for (int32_t k = 0; k < array.dimensions; ++k)
+		count *= static_cast<std::size_t>(array.shape[k]);
+	return count;
+}
+
+std::string shapeText(const ricci_array& array)
+{
+	std::string text;
+	for (int32_t k = 0; k < std::min(array.dimensions, 3); ++k)
+		text += (k == 0 ? "" : " x ") + std::to_string(array.shape[k]);
+	return text.empty() ? "one number" : text;
+}
+
+/// \throw Misuse for an array that is none
+LibraryRun::Array copied(const std::string& name, const ricci_array& given)
+{
+	const std::size_t width = bytesOf(given.type);
+	double bytes = static_cast<double>(width);
+	bool isShape = given.dimensions >= 0 && given.dimensions <= 3;
+	for (int32_t k = 0; isShape && k < given.dimensions; ++k) {
+		isShape = given.shape[k] >= 0 && given.shape[k] <= kMaxLength;
+		bytes *= static_cast<double>(given.shape[k]);
+	}
+	if (!isShape)
+		throw Misuse(
+			"The array " + name +
+			" has no shape that arrays have: up to 3 dimensions, each of 0 to " +
+			std::to_string(kMaxLength) + " entries.");
+	if (bytes > 0.0 && given.data == nullptr)
+		throw Misuse(
+			"The array " + name + " is null, but " + shapeText(given) + " entries are wanted.");
+	if (bytes > kMaxBytes)
+		throw std::bad_alloc();
+	const auto* const data = static_cast<const unsigned char*>(given.data);
+	LibraryRun::Array array{name, given, {}};
+	if (bytes > 0.0)
+		array.bytes.assign(data, data + width * entriesOf(given));
+	array.shape.data = nullptr;
+	return array;
+}
+
+/// What ricci_set_array() takes.
+struct Kind
+{
+	const char* name;
+	char first; ///< entries of the first dimension: V, F, or the number 4
+	int dimensions;
+	int64_t others[2];
+	bool isWhole; ///< indices, or truth values
+};
+
+constexpr Kind kKinds[] = {
+	{"vertices", 'V', 2, {3, 0}, false},
+	{"faces", 'F', 2, {3, 0}, true},
+	{"faux", 'F', 2, {3, 0}, true},
+	{"selected_vertices", 'V', 1, {0, 0}, true},
+	{"selected_edges", 'F', 2, {3, 0}, true},
+	{"selected_faces", 'F', 1, {0, 0}, true},
+	{"quality", 'V', 1, {0, 0}, false},
+	{"uv", 'F', 3, {3, 2}, false},
+	{"picture_of_face", 'F', 1, {0, 0}, true},
+	{"vertex_colors", 'V', 2, {4, 0}, false},
+	{"face_colors", 'F', 2, {4, 0}, false},
+	{"matrix", '4', 2, {4, 0}, false}};
+
+std::string wantedShape(const Kind& kind)
+{
+	std::string text(1, kind.first);
+	for (int k = 1; k < kind.dimensions; ++k)
+		text += " x " + std::to_string(kind.others[k - 1]);
+	return text;
+}
+
+bool hasShape(const Kind& kind, const ricci_array& array)
+{
+	bool is = array.dimensions == kind.dimensions && (kind.first != '4' || array.shape[0] == 4);
+	for (int k = 1; is && k < kind.dimensions; ++k)
+		is = array.shape[k] == kind.others[k - 1];
+	return is;
+}
+
+unsigned char colour(double value)
+{
+	return static_cast<unsigned char>(std::clamp(std::round(value), 0.0, 255.0));
+}
+
+std::string lower(std::string text)
+{
+	for (char& c : text)
+		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+	return text;
+}
+
+/// The whole text as a number, in no locale.
+template<class Number>
+bool read(const std::string& text, Number& number)
+{
+	std::istringstream stream(text);
+	stream.imbue(std::locale::classic());
+	return stream >> number && (stream >> std::ws).eof();
+}
+
+bool readAny(const std::string& text, double& number)
+{
+	const std::string word = lower(text);
+	const bool isNegative = !word.empty() && word[0] == '-';
+	const std::string name = word.substr(isNegative || (!word.empty() && word[0] == '+') ? 1 : 0);
+	if (name == "nan")
+		number = std::numeric_limits<double>::quiet_NaN();
+	else if (name == "inf" || name == "infinity")
+		number = (isNegative ? -1.0 : 1.0) * std::numeric_limits<double>::infinity();
+	else
+		return read(text, number);
+	return true;
+}
+
+void setChoice(Parameter& parameter, const std::string& text)
+{
+	int number = 0;
+	if (read(text, number)) {
+		parameter.value = number;
+		return;
+	}
+	std::string names;
+	for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+		if (lower(parameter.choices[i]) == lower(text)) {
+			parameter.value = static_cast<int>(i);
+			return;
+		}
+		names += (i == 0 ? "'" : ", '") + parameter.choices[i] + "'";
+	}
+	throw Misuse(
+		"'" + text + "' is no choice of {" + parameter.name + "}: it is one of " + names + ".");
+}
+
+class Listener : public ricci::Progress
+{
+public:
+	Listener(ricci_listener listener, void* context) : m_listener(listener), m_context(context) {}
+
+	void log(const std::string& line) override
+	{
+		if (m_listener != nullptr)
+			m_listener(m_context, -1.0, line.c_str());
+	}
+
+	bool update(double fraction, const std::string& what) override
+	{
+		return m_listener == nullptr || m_listener(m_context, fraction, what.c_str()) != 0;
+	}
+
+private:
+	ricci_listener m_listener;
+	void* m_context;
+};
+
+/// Appends arrays to the outputs of a run.
+class Outputs
+{
+public:
+	explicit Outputs(std::vector<LibraryRun::Array>& outputs) : m_outputs(outputs) {}
+
+	/// \param value called for each entry in turn, with its place
+	template<class Number, class Value>
+	void
+	add(const std::string& name,
+		ricci_type type,
+		std::initializer_list<std::size_t> shape,
+		const Value& value)
+	{
+		LibraryRun::Array array{name, {}, {}};
+		array.shape.type = type;
+		array.shape.dimensions = static_cast<int32_t>(shape.size());
+		std::transform(shape.begin(), shape.end(), array.shape.shape, [](std::size_t n) {
+			return static_cast<int64_t>(n);
+		});
+		const std::size_t count = entriesOf(array.shape);
+		array.bytes.resize(count * sizeof(Number));
+		for (std::size_t i = 0; i < count; ++i) {
+			const Number number = static_cast<Number>(value(i));
+			std::memcpy(array.bytes.data() + i * sizeof(Number), &number, sizeof(Number));
+		}
+		m_outputs.push_back(std::move(array));
+	}
+
+	template<class Value>
+	void
+	numbers(const std::string& name, std::initializer_list<std::size_t> shape, const Value& value)
+	{
+		add<double>(name, RICCI_FLOAT64, shape, value);
+	}
+
+	template<class Value>
+	void
+	indices(const std::string& name, std::initializer_list<std::size_t> shape, const Value& value)
+	{
+		add<int32_t>(name, RICCI_INT32, shape, value);
+	}
+
+	/// What meshes and layers have.
+	void mesh(const std::string& before, const MeshModel& model)
+	{
+		const CMeshO& m = model.cm;
+		numbers(before + "vertices", {m.vert.size(), 3}, [&](std::size_t i) {
+			return m.vert[i / 3].cP()[static_cast<int>(i % 3)];
+		});
+		indices(before + "faces", {m.face.size(), 3}, [&](std::size_t i) {
+			return vcg::tri::Index(m, m.face[i / 3].cV(static_cast<int>(i % 3)));
+		});
+		if (vcg::tri::HasPerWedgeTexCoord(m))
+			numbers(before + "uv", {m.face.size(), 3, 2}, [&](std::size_t i) {
+				const auto& at = m.face[i / 6].cWT(static_cast<int>(i / 2 % 3));
+				return i % 2 == 0 ? at.u() : at.v();
+			});
+		if (model.hasDataMask(MeshModel::MM_VERTQUALITY))
+			numbers(
+				before + "quality", {m.vert.size()}, [&](std::size_t i) { return m.vert[i].cQ(); });
+	}
+
+	void colours(const std::string& name, const CMeshO& m)
+	{
+		add<unsigned char>(name, RICCI_UINT8, {m.vert.size(), 4}, [&](std::size_t i) {
+			return m.vert[i / 4].cC()[static_cast<int>(i % 4)];
+		});
+	}
+
+	void layer(const MeshModel& layer)
+	{
+		std::string kind = lower(layer.label.substr(0, layer.label.find(' ')));
+		kind = (kind == "universal" ? "cover" : kind == "canonical" ? "polygon" : kind) + ".";
+		mesh(kind, layer);
+		if (layer.hasDataMask(MeshModel::MM_VERTCOLOR))
+			colours(kind + "colors", layer.cm);
+		indices(kind + "edges", {layer.cm.edge.size(), 2}, [&](std::size_t i) {
+			return vcg::tri::Index(layer.cm, layer.cm.edge[i / 2].cV(static_cast<int>(i % 2)));
+		});
+		numbers(kind + "matrix", {4, 4}, [&](std::size_t i) {
+			return layer.cm.Tr[static_cast<int>(i / 4)][static_cast<int>(i % 4)];
+		});
+	}
+
+	void attribute(const char* name, const char* own, CMeshO& m)
+	{
+		auto values = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<double>(m, own);
+		numbers(name, {m.vert.size()}, [&](std::size_t i) { return values[i]; });
+	}
+
+	void picture(const host::Picture& picture)
+	{
+		const auto size = static_cast<std::size_t>(picture.width());
+		const std::size_t channels = picture.hasAlpha() ? 4 : 3;
+		const auto write = [&](auto sample, ricci_type type) {
+			using Sample = decltype(sample);
+			const auto* const samples = static_cast<const Sample*>(picture.samples());
+			add<Sample>("picture", type, {size, size, channels}, [&](std::size_t i) {
+				return samples[4 * (i / channels) + i % channels];
+			});
+		};
+		if (picture.hasWords())
+			write(static_cast<unsigned short>(0), RICCI_UINT16);
+		else
+			write(static_cast<unsigned char>(0), RICCI_UINT8);
+	}
+
+	void result(const std::string& name, const Value& value)
+	{
+		if (const bool* const is = std::get_if<bool>(&value))
+			add<unsigned char>(name, RICCI_BOOL, {}, [&](std::size_t) { return *is ? 1 : 0; });
+		else if (const int* const whole = std::get_if<int>(&value))
+			indices(name, {}, [&](std::size_t) { return *whole; });
+		else if (const double* const number = std::get_if<double>(&value))
+			numbers(name, {}, [&](std::size_t) { return *number; });
+		else {
+			const auto& row = std::get<std::vector<double>>(value);
+			numbers(name, {row.size()}, [&](std::size_t i) { return row[i]; });
+		}
+	}
+
+private:
+	std::vector<LibraryRun::Array>& m_outputs;
+};
+
+} // namespace
+
+double LibraryRun::Array::operator[](std::size_t i) const
+{
+	const auto as = [&](auto number) {
+		std::memcpy(&number, bytes.data() + i * sizeof(number), sizeof(number));
+		return static_cast<double>(number);
+	};
+	switch (shape.type) {
+	case RICCI_UINT16:
+		return as(uint16_t());
+	case RICCI_INT32:
+		return as(int32_t());
+	case RICCI_INT64:
+		return as(int64_t());
+	case RICCI_FLOAT32:
+		return as(0.0f);
+	case RICCI_FLOAT64:
+		return as(0.0);
+	default:
+		return as(uint8_t());
+	}
+}
+
+void LibraryRun::setParameter(const std::string& name, const std::string& value)
+{
+	Parameter* const parameter = findParameter(m_parameters, name);
+	if (parameter == nullptr)
+		throw Misuse(
+			"The filter has no parameter '" + name + "': ricci_description() names those it has.");
+	const auto use = [&](bool isRead, const char* what) {
+		if (!isRead)
+			throw Misuse("{" + name + "} must be " + what + ", not '" + value + "'.");
+	};
+	if (!parameter->choices.empty())
+		setChoice(*parameter, value);
+	else if (bool* const is = std::get_if<bool>(&parameter->value)) {
+		const std::string word = lower(value);
+		use(word == "true" || word == "false" || word == "1" || word == "0", "true or false");
+		*is = word == "true" || word == "1";
+	}
+	else if (std::holds_alternative<int>(parameter->value)) {
+		int number = 0;
+		use(read(value, number), "a whole number");
+		parameter->value = number;
+	}
+	else if (std::holds_alternative<double>(parameter->value)) {
+		double number = 0.0;
+		use(readAny(value, number), "a number");
+		parameter->value = number;
+	}
+	else
+		parameter->value = value;
+}
+
+void LibraryRun::setArray(const std::string& name, const ricci_array* given)
+{
+	const auto kind = std::find_if(
+		std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return name == k.name; });
+	if (kind == std::end(kKinds))
+		throw Misuse("A mesh has no array '" + name + "': ricci_c.h names those it has.");
+	if (given == nullptr) {
+		m_inputs.erase(name);
+		return;
+	}
+	Array array = copied(name, *given);
+	if (!hasShape(*kind, array.shape))
+		throw Misuse(
+			"The array " + name + " must have the shape " + wantedShape(*kind) + ", not " +
+			shapeText(array.shape) + ".");
+	if (kind->isWhole && (given->type == RICCI_FLOAT32 || given->type == RICCI_FLOAT64))
+		throw Misuse("The array " + name + " must have whole numbers or truth values.");
+	m_inputs[name] = std::move(array);
+}
+
+void LibraryRun::setText(const std::string& name, const std::string& text)
+{
+	if (name != "name" && name != "folder")
+		throw Misuse("A mesh has no text '" + name + "': it has a name and a folder.");
+	(name == "name" ? m_name : m_folder) = text;
+}
+
+void LibraryRun::addPicture(const std::string& name, const ricci_array* given)
+{
+	host::Picture picture;
+	if (given != nullptr) {
+		const Array array = copied(name, *given);
+		const int64_t* const shape = array.shape.shape;
+		if (array.shape.dimensions != 3 || shape[0] < 1 || shape[1] < 1 || shape[2] < 1 ||
+			shape[2] > 4 || (given->type != RICCI_UINT8 && given->type != RICCI_UINT16))
+			throw Misuse(
+				"The picture " + name +
+				" must have rows, columns and 1 to 4 channels of bytes or 16-bit words, not " +
+				shapeText(array.shape) + ".");
+		picture = host::Picture(
+			static_cast<int>(shape[1]),
+			static_cast<int>(shape[0]),
+			static_cast<int>(shape[2]),
+			given->type == RICCI_UINT16,
+			array.bytes.data());
+	}
+	m_pictureNames.reserve(m_pictureNames.size() + 1);
+	m_pictures.push_back(std::move(picture));
+	m_pictureNames.push_back(name);
+}
+
+void LibraryRun::setListener(ricci_listener listener, void* context)
+{
+	m_listener = listener;
+	m_context = context;
+}
+
+const LibraryRun::Array* LibraryRun::input(const char* name) const
+{
+	const auto found = m_inputs.find(name);
+	return found == m_inputs.end() ? nullptr : &found->second;
+}
+
+void LibraryRun::checkLengths() const
+{
+	for (const char* needed : {"vertices", "faces"})
+		if (input(needed) == nullptr)
+			throw Misuse(
+				std::string("There is no array ") + needed + ": a mesh has vertices and faces.");
+	for (const Kind& kind : kKinds) {
+		const Array* const array = input(kind.name);
+		const char* const like = kind.first == 'V' ? "vertices" : "faces";
+		if (array != nullptr && kind.first != '4' &&
+			array->shape.shape[0] != input(like)->shape.shape[0])
+			throw Misuse(
+				"The array " + array->name + " has " + std::to_string(array->shape.shape[0]) +
+				" entries, but there are " + std::to_string(input(like)->shape.shape[0]) + " " +
+				like + ".");
+	}
+}
+
+void LibraryRun::fill(MeshDocument& document) const
+{
+	MeshModel& model = *host::addMesh(document, m_name);
+	model.name = m_name;
+	model.folder = m_folder;
+	model.cm.textures = m_pictureNames;
+	model.pictures = m_pictures;
+	CMeshO& m = model.cm;
+	const Array &places = *input("vertices"), &corners = *input("faces");
+	const auto vertices = static_cast<std::size_t>(places.shape.shape[0]),
+			   faces = static_cast<std::size_t>(corners.shape.shape[0]);
+	std::size_t damaged = 0;
+	for (std::size_t i = 0; i < 3 * faces; i += 3) {
+		const auto isNone = [&](std::size_t c) {
+			return corners[c] < 0.0 || corners[c] >= static_cast<double>(vertices);
+		};
+		damaged += isNone(i) || isNone(i + 1) || isNone(i + 2) ? 1 : 0;
+	}
+	if (damaged > 0)
+		throw ricci::InvalidMesh(ricci::InvalidMesh::DamagedFaces, damaged);
+	vcg::tri::Allocator<CMeshO>::AddVertices(m, vertices);
+	vcg::tri::Allocator<CMeshO>::AddFaces(m, faces);
+
+	/// use(element, its array, place of its first entry) for each, where there is the array.
+	const auto each = [&](const char* name, auto& elements, std::size_t entries, auto use) {
+		if (const Array* const array = input(name))
+			for (std::size_t i = 0; i < elements.size(); ++i)
+				use(elements[i], *array, entries * i);
+	};
+	each("vertices", m.vert, 3, [](CVertexO& v, const Array& a, std::size_t i) {
+		v.P() = vcg::Point3d(a[i], a[i + 1], a[i + 2]);
+	});
+	each("faces", m.face, 3, [&](CFaceO& f, const Array& a, std::size_t i) {
+		for (int k = 0; k < 3; ++k)
+			f.V(k) = &m.vert[static_cast<std::size_t>(a[i + static_cast<std::size_t>(k)])];
+	});
+	/// The numbers of the sides that are marked.
+	const auto eachSide = [&](const char* name, auto mark) {
+		each(name, m.face, 3, [&](CFaceO& f, const Array& a, std::size_t i) {
+			for (int k = 0; k < 3; ++k)
+				if (a[i + static_cast<std::size_t>(k)] != 0.0)
+					mark(f, k);
+		});
+	};
+	eachSide("faux", [](CFaceO& f, int k) { f.SetF(k); });
+	eachSide("selected_edges", [](CFaceO& f, int k) { f.SetFaceEdgeS(k); });
+	const auto select = [](auto& element, const Array& a, std::size_t i) {
+		if (a[i] != 0.0)
+			element.SetS();
+	};
+	each("selected_vertices", m.vert, 1, select);
+	each("selected_faces", m.face, 1, select);
+	if (input("quality") != nullptr)
+		model.updateDataMask(MeshModel::MM_VERTQUALITY);
+	each("quality", m.vert, 1, [](CVertexO& v, const Array& a, std::size_t i) { v.Q() = a[i]; });
+	if (input("uv") != nullptr)
+		model.updateDataMask(MeshModel::MM_WEDGTEXCOORD);
+	each("uv", m.face, 6, [](CFaceO& f, const Array& a, std::size_t i) {
+		for (int k = 0; k < 3; ++k, i += 2) {
+			f.WT(k).U() = static_cast<float>(a[i]);
+			f.WT(k).V() = static_cast<float>(a[i + 1]);
+			f.WT(k).N() = 0;
+		}
+	});
+	if (input("uv") != nullptr)
+		each("picture_of_face", m.face, 1, [&](CFaceO& f, const Array& a, std::size_t i) {
+			const bool is = a[i] >= 0.0 && a[i] < static_cast<double>(m_pictures.size());
+			for (int k = 0; k < 3; ++k)
+				f.WT(k).N() = is ? static_cast<short>(a[i]) : static_cast<short>(-1);
+		});
+	const auto paint = [](auto& element, const Array& a, std::size_t i) {
+		element.C() =
+			vcg::Color4b(colour(a[i]), colour(a[i + 1]), colour(a[i + 2]), colour(a[i + 3]));
+	};
+	if (input("vertex_colors") != nullptr)
+		model.updateDataMask(MeshModel::MM_VERTCOLOR);
+	each("vertex_colors", m.vert, 4, paint);
+	if (input("face_colors") != nullptr)
+		model.updateDataMask(MeshModel::MM_FACECOLOR);
+	each("face_colors", m.face, 4, paint);
+	if (const Array* const matrix = input("matrix"))
+		for (int i = 0; i < 16; ++i)
+			m.Tr[i / 4][i % 4] = (*matrix)[static_cast<std::size_t>(i)];
+	vcg::tri::UpdateBounding<CMeshO>::Box(m);
+}
+
+void LibraryRun::execute()
+{
+	m_outputs.clear();
+	checkLengths();
+	MeshDocument document;
+	fill(document);
+	Listener listener(m_listener, m_context);
+	const Outcome outcome = applyFilter(m_filter, m_parameters, document, listener);
+
+	std::vector<Array> arrays;
+	Outputs outputs(arrays);
+	MeshModel& model = *document.mm();
+	CMeshO& m = model.cm;
+	const std::size_t faces = m.face.size();
+	outputs.mesh("", model);
+	outputs.indices("face_of_origin", {faces}, [&](std::size_t f) { return outcome.origin[f]; });
+	outputs.indices("chart", {faces}, [&](std::size_t f) { return outcome.chart[f]; });
+	if (input("faux") != nullptr)
+		outputs.add<unsigned char>("faux", RICCI_BOOL, {faces, 3}, [&](std::size_t i) {
+			return m.face[i / 3].IsF(static_cast<int>(i % 3)) ? 1 : 0;
+		});
+	outputs.attribute("log_radius", "ricci_u", m);
+	outputs.attribute("target_curvature", "ricci_target_curvature", m);
+	if (model.hasDataMask(MeshModel::MM_VERTCOLOR))
+		outputs.colours("vertex_colors", m);
+	if (model.hasDataMask(MeshModel::MM_FACECOLOR))
+		outputs.add<unsigned char>("face_colors", RICCI_UINT8, {faces, 4}, [&](std::size_t i) {
+			return m.face[i / 4].cC()[static_cast<int>(i % 4)];
+		});
+	if (!valueOf<std::string>(m_parameters, "carry_texture").empty())
+		outputs.picture(model.pictures.front());
+	for (const auto& [key, value] : outcome.results)
+		outputs.result("results." + key, value);
+	for (std::size_t i = 1; i < document.meshes.size(); ++i)
+		outputs.layer(*document.meshes[i]);
+	m_outputs.swap(arrays);
+}
+
+} // namespace filter_ricci
