@@ -284,6 +284,7 @@ void checkOptions(const Options& options)
 	requireChoice("rounding", options.cones.rounding, ConeRounding::QuarterTurns);
 	requireChoice("holes", options.holes, Holes::ShortCapped);
 	requireChoice("charts", options.charts, Charts::CutForRoom);
+	requireChoice("turns", options.turns, ChartTurns::Free);
 	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
 	if (options.cones.count < 0)
