@@ -151,7 +151,7 @@ struct PackOptions
 	/// share of its side, between 0 and kMaxChartMargin.
 	double chartMargin = 0.0;
 
-	/// One box beside the other where there is none.
+	/// Close together in about a square where there is none, see sideBySide().
 	PlaceBoxes placeBoxes;
 };
 
