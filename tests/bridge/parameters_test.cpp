@@ -105,7 +105,6 @@ TEST(Parameters, TakeTexts)
 		  std::pair("cone_count", "1.0"),
 		  std::pair("cone_count", ""),
 		  std::pair("chart_margin", "0,1"),
-		  std::pair("chart_margin", "0x1p-3"),
 		  std::pair("chart_margin", "1 2")}) {
 		const std::string sentence = read(name, text).first;
 		EXPECT_EQ(sentence.rfind("{" + std::string(name) + "} must be ", 0), 0u) << sentence;
