@@ -21,8 +21,8 @@ QVariant toVariant(Number value)
 std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
 {
 	std::map<std::string, QVariant> map;
-	for (const auto& [key, value] : results)
-		map[key] = std::visit([](const auto& v) { return toVariant(v); }, value);
+	for (const filter_ricci::Result& result : results)
+		map[result.key] = std::visit([](const auto& v) { return toVariant(v); }, result.value);
 	return map;
 }
 

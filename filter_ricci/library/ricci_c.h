@@ -163,7 +163,7 @@ RICCI_API int32_t ricci_set_listener(ricci_run* run, ricci_listener listener, vo
 
 /* Runs the filter on the inputs, which stay as they are: it may be called again, also with other parameters. Reports
  * are written as the parameter report says. The picture of carry_texture is drawn, its path is checked, but the
- * file is the caller's to write. Any failure leaves neither outputs nor files. */
+ * file is the caller's to write. A failure leaves no outputs, and no files unless memory runs out at the very end. */
 RICCI_API int32_t ricci_execute(ricci_run* run);
 
 /* What the last call with this run found wrong, ricci_output() apart; "" after RICCI_OK. Valid until the next call

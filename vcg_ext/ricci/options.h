@@ -161,7 +161,7 @@ struct PackOptions
 	/// Rectangle allows none, quarter turns across seams right angles only.
 	ChartTurns turns = ChartTurns::Free;
 
-	/// One box beside the other where there is none.
+	/// Close together in about a square where there is none, see sideBySide().
 	PlaceBoxes placeBoxes;
 };
 

@@ -6,6 +6,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
+#include "boxes_side_by_side.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -72,18 +73,6 @@ double coveredArea(const FlatMesh& mesh)
 		doubled += std::abs(doubledArea(t));
 	}
 	return 0.5 * doubled;
-}
-
-/// One box beside the other.
-std::vector<Point2> inARow(const std::vector<Box2>& boxes, double padding)
-{
-	std::vector<Point2> shifts;
-	double x = boxes.empty() ? 0.0 : boxes.front().min[0];
-	for (const Box2& box : boxes) {
-		shifts.push_back({x - box.min[0], 0.0});
-		x += box.width() + padding;
-	}
-	return shifts;
 }
 
 /// Charts in a square: their motions, the box round them and the padding between it and the square.
@@ -175,8 +164,9 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	const auto area = [&boxes = boxes](std::size_t i) {
 		return boxes[i].width() * boxes[i].height();
 	};
+	const double square = side * side;
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return area(a) > area(b);
+		return roundedShare(area(a), square) > roundedShare(area(b), square);
 	});
 	std::vector<std::size_t> large, small;
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
@@ -300,7 +290,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		extent = std::max(extent, box.extent());
 	}
 	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
-	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : inARow;
+	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : sideBySide;
 	const PlaceBoxes placeBoxes = [&](const std::vector<Box2>& some, double padding) {
 		std::vector<Point2> places = asked(some, padding);
 		if (places.size() != some.size())
