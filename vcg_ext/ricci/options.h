@@ -144,7 +144,7 @@ using PlaceBoxes =
 enum class ChartTurns {
 	None,    ///< as the layout leaves them
 	Quarter, ///< by right angles
-	Free ///< charts whose outline is straight lie along the axes, others in any direction
+	Free     ///< charts whose outline is straight lie along the axes, others in any direction
 };
 
 /// How the charts of a map are packed.
