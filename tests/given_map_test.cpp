@@ -245,6 +245,16 @@ TEST(GivenMap, IsOnlyPackedWhereThatIsAskedFor)
 			doubledArea(map.mesh.at(f)) > 0.0,
 			doubledArea(mesh.map[at(map.mesh.face[f])].uv) > 0.0);
 
+	options.turns = ChartTurns::None; // then it is the same picture but for its place and scale
+	const Parametrization upright = parametrizeEuclidean(mesh, {}, options);
+	const Point2 side = mesh.map[0].uv[1] - mesh.map[0].uv[0];
+	const double scale = distance(upright.mesh.at(0)[0], upright.mesh.at(0)[1]) / length(side);
+	for (const int f : upright.mesh.face.indices())
+		for (std::size_t k = 1; k < 3; ++k) {
+			const Triangle2 &before = mesh.map[at(f)].uv, after = upright.mesh.at(f);
+			EXPECT_LT(distance(after[k] - after[0], scale * (before[k] - before[0])), 1e-9);
+		}
+
 	options.normalizeUV = false; // then areas are those of the surface, all together
 	const Parametrization large = parametrizeEuclidean(mesh, {}, options);
 	double doubled = 0.0;

@@ -60,9 +60,10 @@ Parametrization flattenToDisk(
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween);
 
-/// The map that a component has, one chart in the component's numbers, as it is but for a turn: no flow, no cones.
+/// The map that a component has, one chart in the component's numbers, as it is: no flow, no cones.
+/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
 /// \pre its coordinates are finite
-Parametrization givenMap(const Component& component);
+Parametrization givenMap(const Component& component, bool turns);
 
 /// The same where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
 /// \return none if the component has none, or one with flipped or overlapping faces

@@ -26,11 +26,12 @@ FlatMesh meshOf(const Component& component)
 	return mesh;
 }
 
-Parametrization chartOf(const Component& component, FlatMesh mesh)
+Parametrization chartOf(const Component& component, bool turns, FlatMesh mesh)
 {
 	Parametrization map;
 	map.mesh = std::move(mesh);
-	moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
+	if (turns)
+		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
 	map.charts.resize(1);
 	map.u.assign(component.positions.values().size(), 0.0);
 	map.report.targetUsed = TargetUsed::GivenMap;
@@ -48,9 +49,9 @@ void scaleForLeastEnergy(FlatMesh& mesh)
 			p *= std::pow(sum.back / sum.forth, 0.25);
 }
 
-Parametrization givenMap(const Component& component)
+Parametrization givenMap(const Component& component, bool turns)
 {
-	return chartOf(component, meshOf(component));
+	return chartOf(component, turns, meshOf(component));
 }
 
 std::optional<Parametrization> rightGivenMap(const Component& component)
@@ -68,7 +69,7 @@ std::optional<Parametrization> rightGivenMap(const Component& component)
 	const FlippedCount flipped = countFlipped(mesh);
 	if (flipped.faces + flipped.byRounding > 0 || overlapsInFloats(mesh).faces > 0)
 		return std::nullopt;
-	Parametrization map = chartOf(component, std::move(mesh));
+	Parametrization map = chartOf(component, true, std::move(mesh));
 	scaleForLeastEnergy(map.mesh);
 	return map;
 }

@@ -170,7 +170,7 @@ Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	if (options.charts == Charts::AsGiven)
-		return givenMap(component);
+		return givenMap(component, options.turns == ChartTurns::Free);
 	if (needsNoFlow(options))
 		if (auto given = rightGivenMap(component))
 			return givenOrFlow(component, input, options, *std::move(given));
