@@ -462,9 +462,16 @@ class MeshSet(pymeshlab.MeshSet):
             'As the flow has them',
             'Without overlap',
             'Without overlap, cut for room',
+            'As they are, only packed',
         ]] = 'Without overlap, cut for room',
+ 'As they are, only packed',
         normalize_uv: bool = True,
         sphere_layer: bool = False,
+        join_vertices: Union[int, Literal[
+            'Automatic',
+            'Never',
+            'Always',
+        ]] = 'Automatic',
         carry_texture: str = '',
         texture_size: int = 2048,
         report: str = '',
@@ -505,6 +512,11 @@ class MeshSet(pymeshlab.MeshSet):
             'None',
             'Repair',
         ]] = 'Repair',
+        join_vertices: Union[int, Literal[
+            'Automatic',
+            'Never',
+            'Always',
+        ]] = 'Automatic',
         carry_texture: str = '',
         texture_size: int = 2048,
         report: str = '',
@@ -571,9 +583,16 @@ def flatten(
         'As the flow has them',
         'Without overlap',
         'Without overlap, cut for room',
+        'As they are, only packed',
     ]] = 'Without overlap, cut for room',
+ 'As they are, only packed',
     normalize_uv: bool = True,
     sphere_layer: bool = False,
+    join_vertices: Union[int, Literal[
+        'Automatic',
+        'Never',
+        'Always',
+    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
@@ -613,11 +632,16 @@ def flatten(
         seams, whose sides then differ. Only for the method 'Intrinsic flips'.
     charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
         shortest lines. Cut for room: with Automatic, also a chart that fills little of the
-        square, where the room is worth the seam.
+        square, where the room is worth the seam. As they are: those of the texture coordinates
+        that the mesh has keep their shape, and are only turned, scaled by one factor and
+        packed.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
         closed surface of genus 0.
+    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
+        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
+        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
@@ -667,6 +691,11 @@ def uniformize(
         'None',
         'Repair',
     ]] = 'Repair',
+    join_vertices: Union[int, Literal[
+        'Automatic',
+        'Never',
+        'Always',
+    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
@@ -697,6 +726,9 @@ def uniformize(
     method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
         with an error; the mesh is never changed.
     finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
+    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
+        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
+        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
