@@ -58,43 +58,39 @@ get_zig() {
 gather() {
 	local sources=$tree/sources file
 	rm -rf "$tree"
-	mkdir -p "$sources/suitesparse" "$sources/vcglib/wrap" "$sources/eigen/include/eigen3" "$sources/eigen/share/eigen3"
+	mkdir -p "$sources/SuiteSparse" "$sources/vcglib/wrap" "$sources/Eigen/include/eigen3" "$sources/Eigen/share/eigen3"
 	(cd "$root" && find CMakeLists.txt LICENSE README.md CITATION.cff pyproject.toml vcg_ext filter_ricci -type f \
 		-not -path '*/__pycache__/*' -not -path 'filter_ricci/demo/*' -print0 |
 		xargs -0 cp -p --parents -t "$tree")
-	cp -rp "$build/sources/$meshlab/src/vcglib/"{vcg,LICENSE.txt} "$sources/vcglib/"
+	cp -rp "$build/sources/$meshlab/src/vcglib/vcg" "$sources/vcglib/"
+	cp -p "$build/sources/$meshlab/src/vcglib/LICENSE.txt" "$sources/vcglib/LICENSE"
 	cp -p "$build/sources/$meshlab/src/vcglib/wrap/callback.h" "$sources/vcglib/wrap/"
-	cp -rp "$eigen/Eigen" "$sources/eigen/include/eigen3/"
-	cp -rp /usr/share/eigen3/cmake "$sources/eigen/share/eigen3/"
-	cp -p /usr/share/doc/libeigen3-dev/copyright "$sources/eigen/LICENSE"
+	cp -rp "$eigen/Eigen" "$sources/Eigen/include/eigen3/"
+	cp -rp /usr/share/eigen3/cmake "$sources/Eigen/share/eigen3/"
+	cp -p /usr/share/doc/libeigen3-dev/copyright "$sources/Eigen/LICENSE"
 	if [ -d "$build/sources/$suitesparse" ]; then
 		(cd "$build/sources/$suitesparse" && cp -rp --parents SuiteSparse_config/*.[ch] CHOLMOD/{Include,Core,Cholesky,Supernodal} \
-			{AMD,COLAMD}/{Include,Source} "$sources/suitesparse/")
+			{AMD,COLAMD}/{Include,Source} "$sources/SuiteSparse/")
 		for file in CHOLMOD AMD COLAMD; do
 			cat "$build/sources/$suitesparse/$file/Doc/License.txt"
-		done >"$sources/suitesparse/LICENSE"
+		done >"$sources/SuiteSparse/LICENSE"
 	else
-		rmdir "$sources/suitesparse"
+		rmdir "$sources/SuiteSparse"
 		echo "Without the sources of CHOLMOD the wheels have Eigen's solver, slower on large meshes."
 	fi
 }
 
-# licences PLATFORM: files and names for the wheel, and in $expression what they are.
-licences() {
+# compiled_in PLATFORM: in $expression and $licences, what zig puts into the library.
+compiled_in() {
 	local library=$zig/lib
-	expression="GPL-3.0-or-later AND MPL-2.0 AND Apache-2.0 WITH LLVM-exception AND MIT"
-	licence_files=("$root/LICENSE" "$tree/sources/vcglib/LICENSE.txt=LICENSE.vcglib" "$tree/sources/eigen/LICENSE=LICENSE.Eigen"
-		"$library/libcxx/LICENSE.TXT=LICENSE.libcxx" "$library/libcxxabi/LICENSE.TXT=LICENSE.libcxxabi"
+	expression="Apache-2.0 WITH LLVM-exception AND MIT"
+	licences=("$library/libcxx/LICENSE.TXT=LICENSE.libcxx" "$library/libcxxabi/LICENSE.TXT=LICENSE.libcxxabi"
 		"$library/libunwind/LICENSE.TXT=LICENSE.libunwind" "$zig/LICENSE=LICENSE.zig")
-	if [ -d "$tree/sources/suitesparse" ]; then
-		expression+=" AND LGPL-2.1-or-later AND GPL-2.0-or-later AND BSD-3-Clause"
-		licence_files+=("$tree/sources/suitesparse/LICENSE=LICENSE.SuiteSparse")
-	fi
 	case $1 in
-	manylinux*) licence_files+=("$library/libc/glibc/LICENSES=LICENSES.glibc") ;;
+	manylinux*) licences+=("$library/libc/glibc/LICENSES=LICENSES.glibc") ;;
 	win*)
 		expression+=" AND ZPL-2.1"
-		licence_files+=("$library/libc/mingw/COPYING=LICENSE.mingw-w64")
+		licences+=("$library/libc/mingw/COPYING=LICENSE.mingw-w64")
 		;;
 	esac
 }
@@ -103,11 +99,11 @@ licences() {
 make_wheel() {
 	local platform=$1 suitesparse_tree='' library
 	say "$platform"
-	[ ! -d "$tree/sources/suitesparse" ] || suitesparse_tree=$tree/sources/suitesparse
+	[ ! -d "$tree/sources/SuiteSparse" ] || suitesparse_tree=$tree/sources/SuiteSparse
 	{
 		cmake -S "$tree" -B "$folder/$platform" -G Ninja --toolchain "$tree/filter_ricci/scripts/zig.cmake" \
 			-DRICCI_ZIG="$folder/bin" -DRICCI_ZIG_TARGET="${zig_target[$platform]}" -DBUILD_TESTING=OFF \
-			-DCMAKE_DISABLE_FIND_PACKAGE_Qt5=ON -DCCACHE= -DEigen3_DIR="$tree/sources/eigen/share/eigen3/cmake" \
+			-DCMAKE_DISABLE_FIND_PACKAGE_Qt5=ON -DCCACHE= -DEigen3_DIR="$tree/sources/Eigen/share/eigen3/cmake" \
 			-DVCGLIB_DIR="$tree/sources/vcglib" -DSUITESPARSE_SOURCE_DIR="$suitesparse_tree" &&
 			cmake --build "$folder/$platform" --parallel "${JOBS:-$(nproc)}" --target ricciflow
 	} >"$folder/$platform.log" 2>&1 || {
@@ -116,13 +112,9 @@ make_wheel() {
 		return 1
 	}
 	library=$(find "$folder/$platform/library" -name '*ricciflow.so' -o -name '*ricciflow.dylib' -o -name '*ricciflow.dll')
-	case $library in
-	*/libricciflow.dll) cp "$library" "$folder/$platform/ricciflow.dll" && library=$folder/$platform/ricciflow.dll ;;
-	esac
-	licences "$platform"
-	python3 "$root/filter_ricci/python/make_wheel.py" --library "$library" --tag "$platform${also[$platform]:-}" \
-		--version "$version" --readme "$root/README.md" --author "$author" --expression "$expression" \
-		--licences "${licence_files[@]}" --wheels "$build/release"
+	compiled_in "$platform"
+	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" "$build/release" \
+		"$expression" "${licences[@]}"
 }
 
 chosen=("$@")
@@ -136,7 +128,6 @@ for tool in cmake ninja python3; do
 	command -v $tool >/dev/null || need "$tool"
 done
 version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
-author=$(sed -n 's/^  - name: //p' "$root/CITATION.cff")
 tree=$folder/ricciflow-$version
 say "Sources"
 fetch_sources $meshlab $suitesparse
