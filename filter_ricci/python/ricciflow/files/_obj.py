@@ -1,0 +1,484 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wavefront OBJ and its materials. Written again, every line stays but vt and the second numbers of f."""
+
+import re
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from . import _pictures
+from ._shared import (FileError, MeshFile, SPACE, beside, copy_beside, counted, digits, distinct, mixed,
+                      numbers, relative, rewritten, spliced, table, word_starts, without_comments,
+                      words_of_lines, write_file)
+
+# Options of map_Kd and how many words follow; -o, -s, -t have up to three numbers.
+_OPTIONS = {b'-blendu': 1, b'-blendv': 1, b'-boost': 1, b'-mm': 2, b'-o': 3, b'-s': 3, b'-t': 3,
+            b'-texres': 1, b'-clamp': 1, b'-bm': 1, b'-imfchan': 1, b'-type': 1, b'-cc': 1}
+
+
+class ObjFile(MeshFile):
+    """An OBJ. Objects and groups lie in one space and may share vertices, so that it has one part."""
+
+    def __init__(self, path, data=None):
+        super().__init__(path)
+        self._data = self.path.read_bytes() if data is None else data
+        text = re.sub(rb'\\(\r?)\n', lambda m: b' ' * len(m[0]), self._data)  # continued lines
+        if b'\n' not in text:
+            text = text.replace(b'\r', b'\n')
+        self._text = np.frombuffer(text + b'\n', np.uint8)
+        self._find_lines()
+        self._read_vertices()
+        self._read_faces()
+        self._read_materials()
+
+    # Reading
+
+    def _find_lines(self):
+        text = self._text
+        self._end = np.flatnonzero(text == 10)
+        self._begin = np.r_[0, self._end[:-1] + 1]
+        word = self._begin
+        if SPACE[text[word]].any():
+            letters = np.flatnonzero(~SPACE[text])
+            at = np.searchsorted(letters, word)
+            word = np.minimum(np.r_[letters, len(text) - 1][at], self._end)
+        self._word = word
+        following = text[np.minimum(word + 1, len(text) - 1)]
+        third = SPACE[text[np.minimum(word + 2, len(text) - 1)]]
+        short = SPACE[following]
+        letter = text[word]
+        self._is_v = (letter == ord('v')) & short
+        self._is_vt = (letter == ord('v')) & (following == ord('t')) & third
+        self._is_vn = (letter == ord('v')) & (following == ord('n')) & third
+        self._f = np.flatnonzero((letter == ord('f')) & short)
+
+    def _lines_of(self, lines, skipped):
+        """Text of the lines with their first `skipped` letters blank, and where each begins in it."""
+        begin, end = self._begin[lines], self._end[lines] + 1
+        length = end - begin
+        if len(lines) and lines[-1] - lines[0] + 1 == len(lines):
+            text = self._text[begin[0]:end[-1]].copy()
+        else:
+            keep = np.zeros(len(self._text) + 1, np.int8)
+            keep[begin] += 1
+            keep[end] -= 1
+            text = self._text[np.cumsum(keep[:-1], dtype=np.int8).view(bool)]
+        new = np.cumsum(length) - length
+        first = new + self._word[lines] - begin
+        for k in range(skipped):
+            text[first + k] = 32
+        if (text == ord('#')).any():
+            text = np.frombuffer(without_comments(text.tobytes()), np.uint8)
+        return text, new
+
+    def _rows(self, mask, skipped, least, what):
+        """Numbers of the lines, (n, the most in a line) with NaN where a line has less."""
+        lines = np.flatnonzero(mask)
+        if not len(lines):
+            return np.zeros((0, least))
+        text, begin = self._lines_of(lines, skipped)
+        count = words_of_lines(text, begin)
+        values = numbers(text.tobytes())
+        if len(values) != count.sum() or count.min() < least:
+            self._complain(lines, least, what)
+        if count.min() == count.max():
+            return values.reshape(len(lines), -1)
+        width = min(int(count.max()), 9)
+        column = np.arange(width)
+        has = column < count[:, None]
+        rows = np.full((len(lines), width), np.nan)
+        rows[has] = values[((np.cumsum(count) - count)[:, None] + column)[has]]
+        return rows
+
+    def _complain(self, lines, least, what):
+        for line in lines:
+            words = without_comments(self._text[self._word[line]:self._end[line]].tobytes()).split()[1:]
+            try:
+                good = len(words) >= least and all(np.isscalar(float(w)) for w in words)
+            except ValueError:
+                good = False
+            if not good:
+                raise FileError(f'{self.path.name}: line {line + 1} is no {what}: '
+                                f'{_shown(self._text[self._word[line]:self._end[line]])}')
+        raise FileError(f'{self.path.name}: a {what} cannot be read')
+
+    def _read_vertices(self):
+        rows = self._rows(self._is_v, 1, 3, 'vertex')
+        self.vertices = np.ascontiguousarray(rows[:, :3])
+        if rows.shape[1] >= 6 and not np.isnan(rows[:, 3:6]).all():
+            colours = np.where(np.isnan(rows[:, 3:6]), 1, rows[:, 3:6])
+            colours = colours / 255 if colours.max() > 1 else colours
+            self.vertex_colours = np.c_[colours, np.ones(len(rows))].astype(np.float32)
+
+    def _read_faces(self):
+        lines = self._f
+        text, begin = self._lines_of(lines, 1) if len(lines) else (np.zeros(0, np.uint8), lines)
+        count = words_of_lines(text, begin)
+        starts = np.r_[0, np.cumsum(count)]
+        joined = text.tobytes()
+        slashes = None
+        if b'/' in joined:
+            words = np.flatnonzero(word_starts(text))
+            slashes = np.add.reduceat(text == ord('/'), words, dtype=np.int8)
+            if slashes.max() > 2 or slashes.min() < 0:
+                self._complain_of_face()
+            joined = joined.replace(b'//', b'/0/')
+            joined = re.sub(rb'/(?=\s)', b'/0', joined).replace(b'/', b' ')
+        values = numbers(joined, np.int64)
+        if len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum(dtype=np.int64))):
+            self._complain_of_face()
+        self._slashes = slashes
+        texture = None
+        if slashes is not None:
+            if slashes.min() == slashes.max():
+                corner, texture = values.reshape(-1, slashes[0] + 1).T[:2]
+            else:
+                at = np.cumsum(slashes + np.int64(1)) - slashes - 1
+                corner = values[at]
+                texture = np.where(slashes > 0, values[np.minimum(at + 1, len(values) - 1)], 0)
+        else:
+            corner = values
+        corner = self._from_zero(corner, self._is_v, count)
+        self.set_polygons(corner, starts)
+        if texture is not None and self._is_vt.any() and (texture != 0).any():
+            points = self._rows(self._is_vt, 2, 1, 'texture coordinate')
+            points = np.c_[points, np.zeros(len(points))][:, :2]
+            index = self._from_zero(texture, self._is_vt, count)
+            given = texture != 0
+            beyond = given & ((index < 0) | (index >= len(points)))
+            if beyond.any():
+                self.messages.append(f'{counted(int(beyond.sum()), "corner")} of faces name a texture '
+                                     'coordinate that the file does not have')
+            uv = np.full((len(corner), 2), np.nan)
+            given &= ~beyond
+            uv[given] = points[index[given]]
+            self.uv = uv[self.corners]
+
+    def _from_zero(self, index, mask, count):
+        """Numbers from 1, or from -1 back from their line, as numbers from 0; beyond the end: -1."""
+        result = index - 1
+        if index.size and index.min() < 0:
+            before = np.repeat(np.cumsum(mask)[self._f], count)
+            result = np.where(index < 0, before + index, result)
+        return result
+
+    def _complain_of_face(self):
+        good = re.compile(rb'[+-]?\d+(/([+-]?\d*)(/[+-]?\d*)?)?')
+        for line in self._f:
+            words = without_comments(self._text[self._word[line]:self._end[line]].tobytes()).split()[1:]
+            if not all(good.fullmatch(w) for w in words):
+                raise FileError(f'{self.path.name}: line {line + 1} is no face: '
+                                f'{_shown(self._text[self._word[line]:self._end[line]])}')
+        raise FileError(f'{self.path.name}: the faces cannot be read')
+
+    def _statements(self, keyword):
+        """(line, what follows) of each line that begins with the keyword."""
+        key = np.frombuffer(keyword, np.uint8)
+        at = np.minimum(self._word[:, None] + np.arange(len(key) + 1), len(self._text) - 1)
+        first = np.flatnonzero(self._text[self._word] == key[0])
+        at = at[first] if len(first) < len(at) else at
+        found = first[(self._text[at[:, :-1]] == key).all(1) & SPACE[self._text[at[:, -1]]]]
+        return [(int(line), self._text[self._word[line] + len(key):self._end[line]].tobytes().strip())
+                for line in found]
+
+    def _read_materials(self):
+        used = self._statements(b'usemtl')
+        self._libraries = []  # (line, names as written, files)
+        materials = {}
+        for line, names in self._statements(b'mtllib'):
+            whole = beside(self.path.parent, _text(names))
+            found = [(_text(names), whole)] if whole else [(_text(n), beside(self.path.parent, _text(n)))
+                                                          for n in names.split()]
+            self._libraries.append((line, [(n, f) for n, f in found if f]))
+            for name, file in found:
+                if file is None:
+                    self.messages.append(f'the material file {name} is not beside {self.path.name}')
+                else:
+                    materials.update(read_materials(file))
+        self._materials = materials
+        if not used or not materials:
+            return
+        names = [b''] + [name for _, name in used]
+        current = np.searchsorted([line for line, _ in used], self._f)[self.polygon]
+        known = [materials.get(name) for name in names]
+        colour = np.array([m.colour if m else (1, 1, 1, 1) for m in known], np.float32)
+        self.material_colours = colour[current]
+        numbers_ = {}
+        picture = np.array([numbers_.setdefault(m.picture, len(numbers_)) if m and m.picture else -1
+                            for m in known])
+        self.pictures = [_pictures.Picture(name, beside(self.path.parent, name)) for name in numbers_]
+        if self.uv is not None and numbers_:
+            self.uv_picture = np.where(np.isnan(self.uv).any((1, 2)), -1, picture[current]).astype(np.int32)
+            for k, m in enumerate(known):
+                if m and m.picture and (m.scale != [1, 1] or m.offset != [0, 0]):
+                    self.uv[current == k] = self.uv[current == k] * m.scale + m.offset
+
+    def corner_normals(self):
+        if self._slashes is None or not (self._slashes == 2).any() or not self._is_vn.any():
+            return None
+        rows = self._rows(self._is_vn, 2, 3, 'normal')
+        text, _ = self._lines_of(self._f, 1)
+        third = re.findall(rb'[^\s/]+(?:/[^\s/]*(?:/([^\s/]*))?)?', text.tobytes())
+        index = np.array([int(t) if t else 0 for t in third])
+        count = np.diff(self.starts)
+        index = self._from_zero(index, self._is_vn, count)
+        if (index < 0).any() or (index >= len(rows)).any():
+            return None
+        return rows[index, :3].astype(np.float32)[self.corners]
+
+    # Writing
+
+    def _patch(self, path, uv, texture, refined, uv_set):
+        messages = []
+        new = rewritten(self, uv, refined)
+        folder, stem = path.parent, path.stem
+        points, index = distinct(np.r_[new.corner_uv, new.uv.reshape(-1, 2)])
+        corner_vt, vt = index[:len(new.corner_uv)] + 1, index[len(new.corner_uv):].reshape(-1, 3) + 1
+        used = np.zeros(len(points), bool)
+        stays = np.repeat(~new.torn, np.diff(self.starts))
+        used[corner_vt[stays] - 1] = True
+        gone = np.concatenate([np.zeros(0, np.int64), *(new.triangles(p) for p in np.flatnonzero(new.torn))])
+        used[vt[gone] - 1] = True
+        number = np.cumsum(used)
+        corner_vt, vt, points = number[corner_vt - 1], number[vt - 1], points[used]
+
+        text = self._text[:len(self._data)]
+        keep = np.ones(len(text), bool)
+        line_of = [np.flatnonzero(self._is_vt)] + [np.array([l for l, _ in self._libraries], int)
+                                                   if texture is not None else np.zeros(0, int)]
+        for line in np.concatenate(line_of):
+            keep[self._begin[line]:self._end[line] + 1] = False
+        torn_lines = self._f[new.torn]
+        at, end, plain = self._second_numbers()
+        place = np.zeros(len(text) + 2, np.int32)
+        place[at[~plain]] += 1
+        place[end[~plain]] -= 1
+        keep &= ~(np.cumsum(place[:len(text)]) > 0)
+        rows, mask = digits(corner_vt, b'/')
+        mask[~plain, 0] = False
+        mask[~stays] = False
+        written, moved = spliced(np.frombuffer(self._data, np.uint8), keep, np.where(plain, end, at), rows, mask)
+
+        end_line = b'\r\n' if b'\r\n' in self._data[:10000] else b'\n'
+        head = table('vt %.9g %.9g\n', points)
+        vertices, normal_count = [], int(self._is_vn.sum())
+        if len(new.points):
+            vertices.append(self._new_vertices(new))
+        pieces = {}
+        for p, line in zip(np.flatnonzero(new.torn), torn_lines):
+            pieces[line], normals = self._torn_line(new, p, vt, normal_count)
+            normal_count += len(normals)
+            vertices.append(b''.join(b'vn %.9g %.9g %.9g\n' % tuple(n) for n in normals))
+        first = int(self._begin[self._f[0]]) if len(self._f) else len(text)
+        materials = b''
+        if texture is not None:
+            materials, said = self._write_materials(folder, stem, texture)
+            messages += said
+        else:
+            messages += self._copy_materials(folder)
+        inserts = [(first, first, (b''.join(vertices) + head + materials))]
+        inserts += [(int(self._word[l]), int(self._end[l]), pieces[l]) for l in torn_lines]
+        out, done = [], 0
+        for begin, stop, content in inserts:
+            out += [written[done:moved(begin)], content.replace(b'\n', end_line)]
+            done = moved(min(stop, len(text)))
+        out.append(written[done:])
+        write_file(path, b''.join(out))
+        return messages
+
+    def _second_numbers(self):
+        """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
+        lines = self._f
+        text = self._text
+        mark = np.zeros(len(text) + 1, np.int8)
+        mark[self._word[lines] + 1] += 1
+        mark[self._end[lines]] -= 1
+        inside = np.cumsum(mark[:-1], dtype=np.int8).view(bool)
+        for line in lines[self._has_comment(lines)]:
+            begin, end = self._begin[line], self._end[line]
+            inside[begin + int(np.argmax(text[begin:end] == ord('#'))):end] = False
+        letter = inside & ~SPACE[text]
+        word = letter.copy()
+        word[1:] &= ~letter[:-1]
+        begin = np.flatnonzero(word)
+        stop = letter.copy()
+        stop[:-1] &= ~letter[1:]
+        end = np.flatnonzero(stop) + 1
+        slash = np.flatnonzero(inside & (text == ord('/')))
+        slash = np.r_[slash, len(text), len(text)]
+        one = np.searchsorted(slash, begin)
+        plain = slash[one] >= end
+        at = np.where(plain, end, slash[one] + 1)
+        two = np.where(plain, end, np.minimum(slash[np.minimum(one + 1, len(slash) - 1)], end))
+        return at, two, plain
+
+    def _has_comment(self, lines):
+        hashes = np.flatnonzero(self._text == ord('#'))
+        return np.searchsorted(hashes, self._begin[lines]) != np.searchsorted(hashes, self._end[lines])
+
+    def _words(self, line):
+        text = without_comments(self._text[self._word[line]:self._end[line]].tobytes())
+        return text.split()[1:]
+
+    def _torn_line(self, new, p, vt, normal_count):
+        """The triangles in place of polygon p, and the normals that they need."""
+        words = [w.split(b'/') for w in self._words(self._f[p])]
+        normals, lines = [], []
+        has_normals = all(len(w) > 2 and w[2] for w in words) and self._is_vn.any()
+        given = self._normal_values if has_normals else None
+        seen = int(np.cumsum(self._is_vn)[self._f[p]]) if has_normals else 0
+        for t in new.triangles(p):
+            line = []
+            for k in range(3):
+                weight = new.weights[t, k]
+                local = self.corners[new.origin[t]] - self.starts[p]
+                exact = weight.max() == 1
+                word = words[local[weight.argmax()]]
+                if exact:
+                    vertex = word[0]
+                    if int(vertex) < 0 and len(new.points):
+                        vertex = b'%d' % (new.vertices[t, k] + 1)
+                    third = word[2] if len(word) > 2 else None
+                else:
+                    vertex, third = b'%d' % (new.vertices[t, k] + 1), None
+                if has_normals and (not exact or int(third) < 0):
+                    index = [int(words[c][2]) for c in local]
+                    index = [i - 1 if i > 0 else seen + i for i in index]
+                    if max(index) < len(given) and min(index) >= 0:
+                        normal = mixed(given[index][None], weight[None])[0]
+                        length = np.linalg.norm(normal)
+                        normals.append(normal / length if length > 0 and not exact else normal)
+                        third = b'%d' % (normal_count + len(normals))
+                line.append(b'%s/%d' % (vertex, vt[t, k]) + (b'/' + third if third else b''))
+            lines.append(b'f ' + b' '.join(line))
+        return b'\n'.join(lines), normals
+
+    @cached_property
+    def _normal_values(self):
+        return self._rows(self._is_vn, 2, 3, 'normal')[:, :3]
+
+    def _new_vertices(self, new):
+        """Lines v of the vertices that a refinement adds."""
+        if self.vertex_colours is None:
+            return table('v %.17g %.17g %.17g\n', new.points)
+        t, k = new.samples.T
+        colours = mixed(self.vertex_colours[self.faces[new.origin[t]]], new.weights[t, k])[:, :3]
+        return table('v %.17g %.17g %.17g %.9g %.9g %.9g\n', np.c_[new.points, colours])
+
+    def _copy_materials(self, folder):
+        files = [(name, file) for _, found in self._libraries for name, file in found]
+        files += [(p.name, p.source) for p in self.pictures if isinstance(p.source, Path)]
+        return copy_beside(files, self.path.parent, folder)
+
+    def _write_materials(self, folder, stem, texture):
+        """A material file in which every material shows the picture; its lines for the OBJ."""
+        messages, out, left = [], [], set()
+        names = list(dict.fromkeys(name for _, name in self._statements(b'usemtl')))
+        sources = [f.read_bytes() for _, found in self._libraries for _, f in found]
+        picture = relative(texture, folder).encode()
+        shows = b'Kd 1 1 1\nmap_Kd %s\n' % picture
+        defined = set()
+        for line in b'\n'.join(sources).splitlines():
+            word = (line.split() or [b''])[0].lower()
+            if word == b'newmtl':
+                defined.add(line.split(None, 1)[1].strip() if len(line.split()) > 1 else b'')
+                out.append(line + b'\n' + shows)
+            elif word.startswith((b'map_', b'bump', b'disp', b'decal', b'refl', b'norm')):
+                if word != b'map_kd':
+                    left.add(_text(line.strip()))
+            elif word != b'kd':
+                out.append(line + b'\n')
+        out += [b'newmtl %s\n' % name + shows for name in names if name not in defined]
+        first_used = min((line for line, _ in self._statements(b'usemtl')), default=len(self._end))
+        bare = len(self._f) and self._f[0] < first_used
+        use = b''
+        if bare:
+            out.append(b'newmtl unwrapped\n' + shows)
+            use = b'usemtl unwrapped\n'
+        if left:
+            messages.append('maps that belong to the old texture coordinates are left out: ' +
+                            ', '.join(sorted(left)))
+        name = f'{stem}.mtl'
+        write_file(folder / name, b''.join(out))
+        return b'mtllib %s\n' % name.encode() + use, messages
+
+
+class Material:
+    """What a material of an MTL shows."""
+
+    def __init__(self):
+        self.colour = [1.0, 1.0, 1.0, 1.0]
+        self.picture = None
+        self.scale, self.offset = [1.0, 1.0], [0.0, 0.0]
+
+
+def read_materials(file):
+    """Material by name; pictures by the name that the OBJ's folder knows them by."""
+    materials, current = {}, Material()
+    for line in without_comments(file.read_bytes().replace(b'\\\n', b' ')).splitlines():
+        words = line.split()
+        if not words:
+            continue
+        key = words[0].lower()
+        if key == b'newmtl':
+            current = materials[line.strip()[6:].strip()] = Material()
+        elif key == b'kd':
+            values = numbers(b' '.join(words[1:4]))
+            if len(values) == 3 and np.isfinite(values).all():
+                current.colour[:3] = np.clip(values, 0, 1)
+        elif key in (b'd', b'tr'):
+            value = numbers(words[-1])
+            if len(value) and np.isfinite(value[0]):
+                current.colour[3] = float(np.clip(value[0] if key == b'd' else 1 - value[0], 0, 1))
+        elif key == b'map_kd':
+            _read_map(line.strip()[6:].strip(), current)
+    return materials
+
+
+def _read_map(rest, material):
+    while rest.startswith(b'-'):
+        words = rest.split()
+        count = _OPTIONS.get(words[0].lower())
+        if count is None:
+            break
+        if count == 3:
+            count = next((k for k in range(3) if len(words) <= k + 1 or not len(numbers(words[k + 1]))), 3)
+            values = [float(numbers(w)[0]) for w in words[1:1 + count]]
+            if words[0] in (b'-s', b'-o') and np.isfinite(values).all():
+                goal = material.scale if words[0] == b'-s' else material.offset
+                goal[:] = (values + goal[len(values):])[:2]
+        for _ in range(count + 1):
+            rest = (rest.split(None, 1) + [b''])[1]
+    material.picture = _text(rest).strip('"') or None
+
+
+def plain(mesh):
+    """(bytes) An OBJ of the mesh without texture coordinates."""
+    out = [b'']
+    if mesh.vertex_colours is None:
+        out.append(table('v %.17g %.17g %.17g\n', mesh.vertices))
+    else:
+        out.append(table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]]))
+    corner = np.zeros(int(mesh.starts[-1]), np.int64)
+    corner[mesh.corners] = mesh.faces + 1
+    normals = mesh.corner_normals()
+    if normals is None:
+        words = list(map(str, corner.tolist()))
+    else:
+        at = np.zeros((len(corner), 3))
+        at[mesh.corners] = normals
+        points, index = np.unique(at, axis=0, return_inverse=True)
+        out.append(table('vn %.9g %.9g %.9g\n', points))
+        words = [f'{v}//{n}' for v, n in zip(corner.tolist(), (index.ravel() + 1).tolist())]
+    starts = mesh.starts.tolist()
+    out.append(''.join(f'f {" ".join(words[a:b])}\n' for a, b in zip(starts, starts[1:])).encode())
+    return b''.join(out)
+
+
+def _text(name):
+    return name.decode('utf-8', 'surrogateescape') if isinstance(name, bytes) else name
+
+
+def _shown(text):
+    return text.tobytes()[:60].decode('utf-8', 'replace')

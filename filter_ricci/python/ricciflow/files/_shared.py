@@ -1,0 +1,535 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the formats share: the mesh that a file holds, its polygons as triangles, text as numbers,
+and files that are replaced whole or not at all."""
+
+import heapq
+import os
+import secrets
+import warnings
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+
+class FileError(ValueError):
+    """A file cannot be read or written; the sentence names it and what is wrong."""
+
+
+@dataclass
+class Part:
+    """A mesh of a file with a space of its own: one of glTF or 3MF; of other formats the whole file."""
+    name: str
+    faces: slice  # its triangles in MeshFile.faces
+    vertices: slice  # its vertices in MeshFile.vertices
+    matrices: list = field(default_factory=lambda: [np.eye(4)])  # (4, 4) of each place it is shown at
+
+    @property
+    def scale(self):
+        """Units of the scene in one unit of the part, the largest of its places; counts for texels."""
+        return max((abs(np.linalg.det(m[:3, :3])) ** (1 / 3) for m in self.matrices), default=1.0) or 1.0
+
+    @property
+    def mirrored(self):
+        """Whether it is shown by mirroring places only. Its vertices are then given with -x and its
+        triangles turned over, so that they and their map look as what is seen."""
+        return bool(self.matrices) and all(np.linalg.det(m[:3, :3]) < 0 for m in self.matrices)
+
+
+@dataclass
+class Refined:
+    """Triangles that take the place of those of the file (common refinement).
+
+    vertices (W, 3); faces (N, 3) index them; origin (N,) the triangle of the file in which each lies;
+    weights (N, 3, 3) the barycentric coordinates in it of each corner. Vertices that lie in the file
+    keep their number and place.
+    """
+    vertices: np.ndarray
+    faces: np.ndarray
+    origin: np.ndarray
+    weights: np.ndarray
+
+
+class MeshFile:
+    """A mesh as its file holds it. `save` writes the file again with other texture coordinates.
+
+    Texture coordinates have their origin at the lower left corner of the picture. Colours are red,
+    green, blue, alpha in [0, 1], as a screen shows them (sRGB).
+    """
+
+    split = False
+    """Whether the format cannot share vertices between faces, or splits them for other reasons."""
+    linear = False
+    """Whether the format multiplies colours in linear light."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.vertices = np.zeros((0, 3))  # (V, 3) float64
+        self.faces = np.zeros((0, 3), np.int32)  # (F, 3) triangles, in the order of the file
+        self.polygon = np.zeros(0, np.int32)  # (F,) the polygon of each triangle
+        self.corners = np.zeros((0, 3), np.int64)  # (F, 3) the corner of the file of each corner
+        self.starts = np.zeros(1, np.int64)  # (P + 1,) the first corner of each polygon
+        self.diagonals = np.zeros((0, 3), bool)  # (F, 3) side k, from corner k to k + 1, is inside a polygon
+        self.uv = None  # (F, 3, 2) float64, NaN where a face has none
+        self.uv_picture = None  # (F,) index in pictures, -1: none
+        self.vertex_colours = None  # (V, 4) float32
+        self.face_colours = None  # (F, 4) float32
+        self.material_colours = None  # (F, 4) float32
+        self.pictures = []  # Picture, read when it is asked for
+        self.parts = []
+        self.messages = []
+
+    # What the readers of the formats call
+
+    def set_polygons(self, corner_vertices, starts):
+        """Triangulates; `corner_vertices` (C,) and the first corner of each polygon, (P + 1,)."""
+        count = np.diff(starts)
+        few = int((count < 3).sum())
+        if few:
+            self.messages.append(f'{counted(few, "face")} with less than 3 corners, '
+                                 f'first face {int((count < 3).argmax()) + 1}: not mapped')
+        bad = (corner_vertices < 0) | (corner_vertices >= len(self.vertices))
+        if bad.any():
+            corner = int(bad.argmax())
+            face = int(np.searchsorted(starts, corner, 'right'))
+            raise FileError(f'{self.path.name}: {counted(int(bad.sum()), "corner")} of faces, first of face '
+                            f'{face}, name a vertex beyond the {len(self.vertices)} of the file')
+        self.starts = starts
+        self.corners, self.polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
+        self.faces = corner_vertices.astype(np.int32)[self.corners]
+        self.parts = self.parts or [Part(self.path.stem, slice(0, len(self.faces)),
+                                         slice(0, len(self.vertices)))]
+        self.messages += remarks(self.vertices, self.faces)
+
+    # For the drawing of pictures
+
+    def corner_colours(self):
+        """(F, 3, 4) float32, or None: what faces without a picture show."""
+        factors = []
+        if self.material_colours is not None:
+            factors.append(self.material_colours[:, None])
+        if self.vertex_colours is not None:
+            factors.append(self.vertex_colours[self.faces])
+        elif self.face_colours is not None:
+            factors.append(self.face_colours[:, None])
+        if not factors:
+            return None
+        if self.linear:
+            factors = [srgb_to_linear(f) for f in factors]
+        result = np.ones((len(self.faces), 3, 4), np.float32)
+        for factor in factors:
+            result *= factor
+        return linear_to_srgb(result) if self.linear else result
+
+    def corner_normals(self):
+        """(F, 3, 3) float32, or None where the file has no normals."""
+        return None
+
+    # Writing
+
+    def save(self, path, uv, texture=None, *, refined=None, uv_set=None):
+        """Writes the file to `path` with other texture coordinates; all else in it stays.
+
+        A path with another ending gets the mesh in that format. The file is replaced whole or not at
+        all; it may be the one that was read.
+
+        Args:
+            path: ends with .obj, .ply, .glb, .gltf or .3mf.
+            uv: (F, 3, 2), of `faces`, or of the triangles of `refined`.
+            texture: path of a picture that exists and that the mesh shows from now on.
+            refined: Refined, or a tuple of its members, whose triangles take the place of the file's.
+            uv_set: of glTF, the number n of TEXCOORD_n; by itself 0 where there was none or with
+                `texture`, else 1.
+
+        Returns: list of sentences about what the written file does not hold as the one that was read.
+        """
+        path = Path(path)
+        if refined is not None and not isinstance(refined, Refined):
+            refined = Refined(*(np.asarray(a) for a in refined))
+        uv = np.asarray(uv, np.float64)
+        faces = self.faces if refined is None else refined.faces
+        if uv.shape != (len(faces), 3, 2):
+            raise ValueError(f'uv must have the shape ({len(faces)}, 3, 2), not {uv.shape}')
+        if not np.isfinite(uv).all():
+            raise ValueError('uv has values that are not finite numbers')
+        uv = uv + 0.0  # no -0
+        if texture is not None and not Path(texture).is_file():
+            raise FileError(f'the texture {texture} is not a file')
+        same = self._same_format(path)
+        target = self if same else self._converted(path, refined)
+        messages = target._patch(path, uv, texture, refined, uv_set)
+        return messages + (target.messages if not same else [])
+
+    def _same_format(self, path):
+        return path.suffix.lower() == self.path.suffix.lower()
+
+    def _patch(self, path, uv, texture, refined, uv_set):
+        raise FileError(f'{path.name}: {path.suffix or "no ending"} cannot be written; '
+                        'use .obj, .ply, .glb, .gltf or .3mf')
+
+    def _converted(self, path, refined):
+        raise NotImplementedError  # set by the package, which knows all formats
+
+
+def counted(count, noun):
+    """3 faces, 1 face."""
+    return f'{count} {noun}' + ('' if count == 1 else 's')
+
+
+def remarks(vertices, faces):
+    """Sentences about vertices and faces that a map cannot be true to, for files and arrays alike."""
+    messages = []
+    finite = np.isfinite(vertices).all(1)
+    if not finite.all():
+        used = int((~finite)[faces].any(1).sum())
+        messages.append(f'{counted(int((~finite).sum()), "vertex").replace("vertexs", "vertices")} with '
+                        f'coordinates that are not finite numbers, first vertex {int(finite.argmin())}, '
+                        f'used by {counted(used, "face")}')
+    twice = ((faces[:, 0] == faces[:, 1]) | (faces[:, 1] == faces[:, 2]) | (faces[:, 2] == faces[:, 0]))
+    if twice.any():
+        messages.append(f'{counted(int(twice.sum()), "face")} with a vertex twice, first face '
+                        f'{int(twice.argmax())}: kept, without area')
+    return messages
+
+
+def srgb_to_linear(colour):
+    """Of the colours, not of alpha."""
+    c = np.array(colour, np.float32)
+    rgb = c[..., :3]
+    c[..., :3] = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return c
+
+
+def linear_to_srgb(colour):
+    """Of the colours, not of alpha."""
+    c = np.array(colour, np.float32)
+    rgb = c[..., :3] = np.clip(c[..., :3], 0, 1)
+    c[..., :3] = np.where(rgb <= 0.0031308, rgb * 12.92, 1.055 * rgb ** (1 / 2.4) - 0.055)
+    return c
+
+
+# Polygons
+
+def triangulate(points, corner_vertices, starts):
+    """Triangles of polygons, concave ones too, in their order and with their orientation.
+
+    Returns: corners (F, 3) as indices of `corner_vertices`; polygon (F,); diagonals (F, 3) bool.
+    """
+    count = np.diff(starts)
+    per = np.maximum(count - 2, 0)
+    polygon = np.repeat(np.arange(len(count), dtype=np.int32), per)
+    first = np.cumsum(per) - per
+    local = np.zeros((len(polygon), 3), np.int64)  # corners, counted in their polygon
+    local[:, 1] = np.arange(len(polygon)) - first[polygon] + 1
+    local[:, 2] = local[:, 1] + 1
+    if (count > 3).any():
+        doubles = points.astype(np.float64)
+
+        def areas(corner_triples):
+            a, b, c = (doubles[corner_vertices[corner_triples[..., k]]] for k in range(3))
+            return np.cross(b - a, c - a)
+
+        with np.errstate(all='ignore'):
+            quads = np.flatnonzero(count == 4)
+            corner = starts[quads, None]
+            usual, other = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[1, 2, 3], [1, 3, 0]])
+            halves = areas(corner[:, None] + usual)
+            whole = halves.sum(1)[:, None]
+            turn = ((halves * whole).sum(2) <= 0).any(1)
+            turn[turn] = ((areas(corner[turn][:, None] + other) * whole[turn]).sum(2) > 0).all(1)
+            local[first[quads[turn], None] + [0, 1]] = other
+            large = np.flatnonzero(np.isin(polygon, np.flatnonzero(count > 4)))
+            if len(large):
+                area = areas(starts[polygon[large], None] + local[large])
+                begin = np.flatnonzero(np.r_[True, np.diff(polygon[large]) > 0])
+                whole = np.repeat(np.add.reduceat(area, begin), np.diff(np.r_[begin, len(large)]), 0)
+                bad = (area * whole).sum(1) <= 1e-9 * (whole * whole).sum(1) / count[polygon[large]]
+                for p in np.unique(polygon[large][bad]):
+                    corners = doubles[corner_vertices[starts[p]:starts[p + 1]]]
+                    local[first[p]:first[p] + per[p]] = _clip_ears(_flattened(corners))
+    size = count[polygon][:, None]
+    diagonals = (local + 1) % np.maximum(size, 1) != np.roll(local, -1, 1)
+    return starts[polygon, None] + local, polygon, diagonals
+
+
+def _flattened(points):
+    """(n, 2) the corners of a polygon seen along its normal, counterclockwise."""
+    points = points - points.mean(0)
+    normal = np.cross(points, np.roll(points, -1, 0)).sum(0)
+    length = np.linalg.norm(normal)
+    if not np.isfinite(points).all() or not length > 0:
+        return np.zeros((len(points), 2))
+    normal /= length
+    x = np.zeros(3)
+    x[np.abs(normal).argmin()] = 1
+    x -= normal * (normal @ x)
+    x /= np.linalg.norm(x)
+    flat = points @ np.c_[x, np.cross(normal, x)]
+    return flat / np.abs(flat).max()
+
+
+def _clip_ears(points):
+    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear goes first."""
+    xy = points.tolist()
+    n = len(xy)
+    before, after = [(i - 1) % n for i in range(n)], [(i + 1) % n for i in range(n)]
+
+    def shape(i):  # of the triangle at corner i: signed, 0 without area
+        (ax, ay), (bx, by), (cx, cy) = xy[before[i]], xy[i], xy[after[i]]
+        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        sides = (bx - ax) ** 2 + (by - ay) ** 2 + (cx - bx) ** 2 + (cy - by) ** 2 + (ax - cx) ** 2 + (ay - cy) ** 2
+        return area / sides if sides > 0 else 0.0
+
+    shapes = np.array([shape(i) for i in range(n)])
+    reflex = shapes <= 0
+    alive = [True] * n
+
+    def is_ear(i):  # no corner that is not convex lies in it
+        inside = np.flatnonzero(reflex)
+        a, b, c = points[before[i]], points[i], points[after[i]]
+        q = points[inside]
+        within = np.ones(len(q), bool)
+        for s, t in ((a, b), (b, c), (c, a)):
+            within &= (t[0] - s[0]) * (q[:, 1] - s[1]) - (t[1] - s[1]) * (q[:, 0] - s[0]) >= 0
+            within &= (q != s).any(1)
+        return not within.any()
+
+    queue = [(-shapes[i], i) for i in range(n) if shapes[i] > 0]
+    heapq.heapify(queue)
+    waiting, triangles, moved = [], [], True
+    while len(triangles) < n - 2:
+        if queue:
+            value, i = heapq.heappop(queue)
+            if not alive[i] or -value != shapes[i]:
+                continue
+            if not is_ear(i):
+                waiting.append((value, i))
+                continue
+        elif waiting and moved:
+            queue, waiting, moved = waiting, [], False
+            heapq.heapify(queue)
+            continue
+        else:  # it crosses itself or has no area: the largest that is left
+            left = [k for k in range(n) if alive[k]]
+            i = max(left, key=lambda k: shapes[k])
+        triangles.append((before[i], i, after[i]))
+        alive[i], reflex[i], moved = False, False, True
+        after[before[i]], before[after[i]] = after[i], before[i]
+        for k in (before[i], after[i]):
+            shapes[k] = shape(k)
+            reflex[k] = shapes[k] <= 0
+            if shapes[k] > 0:
+                heapq.heappush(queue, (-shapes[k], k))
+    return triangles
+
+
+@dataclass
+class Rewritten:
+    """Texture coordinates by the corners of a file, for polygons that stay; triangles for the others.
+
+    A polygon does not stay where a seam or a refinement divides it, and nothing else is divided.
+    """
+    corner_uv: np.ndarray  # (C, 2)
+    torn: np.ndarray  # (P,) bool
+    first: np.ndarray  # (P + 1,) in `order`, the triangles of each polygon
+    order: np.ndarray  # triangles by polygon
+    uv: np.ndarray  # (N, 3, 2)
+    vertices: np.ndarray  # (N, 3) numbers >= V are new vertices
+    origin: np.ndarray  # (N,) triangle of the file
+    weights: np.ndarray  # (N, 3, 3) in it
+    points: np.ndarray  # (W, 3) the new vertices
+    samples: np.ndarray  # (W, 2) a triangle and its corner where each new vertex is
+
+    def triangles(self, p):
+        """Of polygon p, which does not stay."""
+        return self.order[self.first[p]:self.first[p + 1]]
+
+
+def rewritten(mesh, uv, refined):
+    """Which polygons of the file stay, and the coordinates of all."""
+    count = len(mesh.starts) - 1
+    torn = np.zeros(count, bool)
+    whole = np.tile(np.eye(3), (len(mesh.faces), 1, 1)) if refined is None else refined.weights
+    origin = np.arange(len(mesh.faces)) if refined is None else refined.origin
+    vertices, points, samples = mesh.faces, np.zeros((0, 3)), np.zeros((0, 2), np.int64)
+    polygon = mesh.polygon[origin]
+    if refined is not None:
+        same = (whole == np.eye(3)).all((1, 2))
+        torn[polygon[~same]] = True
+        torn |= np.bincount(polygon, minlength=count) != np.bincount(mesh.polygon, minlength=count)
+        vertices, points, samples = _numbered(mesh, refined)
+    corner_uv = np.zeros((int(mesh.starts[-1]), 2))
+    stays = ~torn[polygon]
+    corner_uv[mesh.corners[origin[stays]]] = uv[stays]
+    differs = (corner_uv[mesh.corners[origin]] != uv).any((1, 2)) & stays
+    torn[polygon[differs]] = True
+    order = np.argsort(polygon, kind='stable')
+    first = np.searchsorted(polygon[order], np.arange(count + 1))
+    return Rewritten(corner_uv, torn, first, order, uv, vertices, origin, whole, points, samples)
+
+
+def _numbered(mesh, refined):
+    """Corners of a refinement by vertices of the file where they are these; others are new."""
+    at_corner = refined.weights == 1
+    old = at_corner.any(2)
+    number = np.take_along_axis(mesh.faces[refined.origin], at_corner.argmax(2), 1).astype(np.int64)
+    new, where, index = np.unique(refined.faces[~old], return_index=True, return_inverse=True)
+    number[~old] = len(mesh.vertices) + index.ravel()
+    samples = np.argwhere(~old)[where]
+    return number, np.asarray(refined.vertices, np.float64)[new], samples.reshape(-1, 2)
+
+
+def mixed(values, weights):
+    """sum of weights (n, 3) times values (n, 3, ...); exact where a weight is 1, whole numbers rounded."""
+    shape = weights.shape + (1,) * (values.ndim - 2)
+    result = (values.astype(np.float64) * weights.reshape(shape)).sum(1)
+    one = weights == 1
+    exact = one.any(1)
+    result[exact] = values[exact, one[exact].argmax(1)]
+    return (np.rint(result) if values.dtype.kind in 'iu' else result).astype(values.dtype)
+
+
+def distinct(pairs):
+    """Rows of (n, 2) float64 that differ, and the number of each row's."""
+    bits = np.ascontiguousarray(pairs).view(np.dtype((np.void, 16))).ravel()
+    _, where, index = np.unique(bits, return_index=True, return_inverse=True)
+    return pairs[where], index.ravel()
+
+
+# Text
+
+SPACE = np.zeros(256, bool)
+SPACE[[9, 10, 11, 12, 13, 32]] = True
+
+
+def numbers(text, dtype=np.float64):
+    """The numbers of a text (bytes) up to the first word that is none."""
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore', DeprecationWarning)
+        try:
+            return np.fromstring(text, dtype, sep=' ') if text.strip() else np.zeros(0, dtype)
+        except ValueError:  # from numpy 3 on, words that are no numbers
+            return np.zeros(0, dtype)
+
+
+def word_starts(text):
+    """(n,) bool: at the first letters of words; `text` as uint8."""
+    space = SPACE[text]
+    start = ~space
+    start[1:] &= space[:-1]
+    return start
+
+
+def words_of_lines(text, starts):
+    """Number of words in each line; `starts` are the lines' first bytes in `text` (uint8)."""
+    if not len(starts):
+        return np.zeros(0, np.int64)
+    marks = word_starts(text).view(np.uint8)
+    return np.add.reduceat(np.r_[marks, np.uint8(0)], starts, dtype=np.int32).astype(np.int64)
+
+
+def without_comments(text):
+    """Spaces in place of # and what follows on its line; `text` (bytes) keeps its length."""
+    if b'#' not in text:
+        return text
+    return b'\n'.join(line if b'#' not in line else line[:line.index(b'#')].ljust(len(line))
+                      for line in text.split(b'\n'))
+
+
+def spliced(text, keep, at, rows, mask):
+    """`text` (uint8) where `keep`, and before byte at[k], ascending, the bytes rows[k][mask[k]].
+
+    Returns: (bytes, position): position[p] is where byte p of `text` has gone.
+    """
+    lengths = mask.sum(1)
+    kept = np.r_[0, np.cumsum(keep)]
+    begin = kept[at] + np.cumsum(lengths) - lengths
+    total = int(kept[-1] + lengths.sum())
+    edge = np.zeros(total + 1, np.int32)
+    np.add.at(edge, begin, 1)
+    np.add.at(edge, begin + lengths, -1)
+    new = np.cumsum(edge[:-1]) > 0
+    result = np.empty(total, np.uint8)
+    result[new] = rows[mask]
+    result[~new] = text[keep]
+    added = np.r_[0, np.cumsum(lengths)]
+    return result.tobytes(), lambda p: kept[p] + added[np.searchsorted(at, p, 'left')]
+
+
+def digits(values, lead=b''):
+    """(rows, mask) of bytes, each row `lead` and the decimal digits of a whole number >= 0."""
+    width = len(str(int(values.max()))) if len(values) else 1
+    rows = np.empty((len(values), len(lead) + width), np.uint8)
+    rows[:, :len(lead)] = np.frombuffer(lead, np.uint8)
+    mask = np.ones(rows.shape, bool)
+    rest = values.astype(np.int64)
+    for k in range(width):
+        rows[:, -1 - k] = 48 + rest % 10
+        if k:
+            mask[:, -1 - k] = rest > 0
+        rest = rest // 10
+    return rows, mask
+
+
+def table(form, values):
+    """Lines of text, each `form` % a row of `values`."""
+    return (form * len(values) % tuple(values.ravel().tolist())).encode()
+
+
+# Files
+
+def write_file(path, content):
+    """Replaces the file whole, or leaves it as it was."""
+    path = Path(os.path.realpath(path))
+    temporary = path.with_name(f'.{path.name}.{secrets.token_hex(4)}')
+    try:
+        with open(temporary, 'xb') as file:
+            file.write(content)
+        if path.exists():
+            os.chmod(temporary, path.stat().st_mode & 0o777)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise FileError(f'{path} cannot be written: {error.strerror}') from error
+    finally:
+        if temporary.exists():
+            temporary.unlink()
+
+
+def beside(folder, name):
+    """The file that a mesh in `folder` calls `name`: there, or with its last part there; or None."""
+    name = name.strip().strip('"').replace('\\', '/')
+    if not name or '\0' in name:
+        return None
+    for candidate in (Path(folder) / name, Path(folder) / name.rsplit('/', 1)[-1]):
+        try:
+            if candidate.is_file():
+                return candidate
+        except OSError:
+            pass
+    return None
+
+
+def copy_beside(files, source, target):
+    """Copies files that a mesh in folder `source` names to its new folder; says what it could not."""
+    messages = []
+    if Path(source).resolve() == Path(target).resolve():
+        return messages
+    for name, file in files:
+        goal = Path(target) / (name if not Path(name).is_absolute() and '..' not in Path(name).parts
+                               else Path(name).name)
+        content = file.read_bytes()
+        if not goal.exists():
+            goal.parent.mkdir(parents=True, exist_ok=True)
+            write_file(goal, content)
+        elif goal.read_bytes() != content:
+            messages.append(f'{goal} is another file than that of the mesh and was not replaced')
+    return messages
+
+
+def relative(file, folder):
+    """How a mesh in `folder` names a file."""
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:  # another drive
+        return Path(file).resolve().as_posix()
