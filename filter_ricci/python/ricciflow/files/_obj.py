@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, MeshFile, SPACE, beside, copy_beside, counted, digits, distinct, mixed,
+from ._shared import (FileError, MeshFile, beside, copy_beside, counted, counts_between, digits, distinct, mixed,
                       numbers, relative, rewritten, spliced, table, word_starts, without_comments,
                       words_of_lines, write_file)
 
@@ -23,10 +23,12 @@ class ObjFile(MeshFile):
     def __init__(self, path, data=None):
         super().__init__(path)
         self._data = self.path.read_bytes() if data is None else data
-        text = re.sub(rb'\\(\r?)\n', lambda m: b' ' * len(m[0]), self._data)  # continued lines
+        text = self._data
+        if b'\\' in text:  # continued lines
+            text = re.sub(rb'\\\r?\n', lambda m: b' ' * len(m[0]), text)
         if b'\n' not in text:
             text = text.replace(b'\r', b'\n')
-        self._text = np.frombuffer(text + b'\n', np.uint8)
+        self._text = np.frombuffer(text + b'\n\n\n', np.uint8)  # each line has an end and words of two letters
         self._find_lines()
         self._read_vertices()
         self._read_faces()
@@ -36,34 +38,38 @@ class ObjFile(MeshFile):
 
     def _find_lines(self):
         text = self._text
-        self._end = np.flatnonzero(text == 10)
-        self._begin = np.r_[0, self._end[:-1] + 1]
+        self._end = np.flatnonzero(text[:-2] == 10)
+        self._begin = np.empty_like(self._end)
+        self._begin[0], self._begin[1:] = 0, self._end[:-1] + 1
         word = self._begin
-        if SPACE[text[word]].any():
-            letters = np.flatnonzero(~SPACE[text])
-            at = np.searchsorted(letters, word)
-            word = np.minimum(np.r_[letters, len(text) - 1][at], self._end)
-        self._word = word
-        following = text[np.minimum(word + 1, len(text) - 1)]
-        third = SPACE[text[np.minimum(word + 2, len(text) - 1)]]
-        short = SPACE[following]
         letter = text[word]
-        self._is_v = (letter == ord('v')) & short
-        self._is_vt = (letter == ord('v')) & (following == ord('t')) & third
-        self._is_vn = (letter == ord('v')) & (following == ord('n')) & third
+        if ((letter <= 32) & (letter != 10)).any():
+            letters = np.flatnonzero(text[:-2] > 32)
+            word = np.minimum(np.r_[letters, len(text)][np.searchsorted(letters, word)], self._end)
+            letter = text[word]
+        self._word = word
+        following = text[word + 1]
+        short = following <= 32
+        is_v = letter == ord('v')
+        self._v = np.flatnonzero(is_v & short)
         self._f = np.flatnonzero((letter == ord('f')) & short)
+        others = np.flatnonzero(is_v & ~short & (text[word + np.where(short, 0, 2)] <= 32))
+        self._vt = others[following[others] == ord('t')]
+        self._vn = others[following[others] == ord('n')]
+        self._others = np.flatnonzero(~is_v & (letter != ord('f')))
 
     def _lines_of(self, lines, skipped):
         """Text of the lines with their first `skipped` letters blank, and where each begins in it."""
         begin, end = self._begin[lines], self._end[lines] + 1
         length = end - begin
-        if len(lines) and lines[-1] - lines[0] + 1 == len(lines):
+        if lines[-1] - lines[0] + 1 == len(lines):
             text = self._text[begin[0]:end[-1]].copy()
         else:
-            keep = np.zeros(len(self._text) + 1, np.int8)
-            keep[begin] += 1
-            keep[end] -= 1
-            text = self._text[np.cumsum(keep[:-1], dtype=np.int8).view(bool)]
+            first, last = lines[0], lines[-1] + 1
+            wanted = np.zeros(last - first, bool)
+            wanted[lines - first] = True
+            part = slice(self._begin[first], self._end[last - 1] + 1)
+            text = self._text[part][np.repeat(wanted, np.diff(np.r_[self._begin[first:last], part.stop]))]
         new = np.cumsum(length) - length
         first = new + self._word[lines] - begin
         for k in range(skipped):
@@ -72,9 +78,8 @@ class ObjFile(MeshFile):
             text = np.frombuffer(without_comments(text.tobytes()), np.uint8)
         return text, new
 
-    def _rows(self, mask, skipped, least, what):
+    def _rows(self, lines, skipped, least, what):
         """Numbers of the lines, (n, the most in a line) with NaN where a line has less."""
-        lines = np.flatnonzero(mask)
         if not len(lines):
             return np.zeros((0, least))
         text, begin = self._lines_of(lines, skipped)
@@ -104,7 +109,7 @@ class ObjFile(MeshFile):
         raise FileError(f'{self.path.name}: a {what} cannot be read')
 
     def _read_vertices(self):
-        rows = self._rows(self._is_v, 1, 3, 'vertex')
+        rows = self._rows(self._v, 1, 3, 'vertex')
         self.vertices = np.ascontiguousarray(rows[:, :3])
         if rows.shape[1] >= 6 and not np.isnan(rows[:, 3:6]).all():
             colours = np.where(np.isnan(rows[:, 3:6]), 1, rows[:, 3:6])
@@ -116,17 +121,22 @@ class ObjFile(MeshFile):
         text, begin = self._lines_of(lines, 1) if len(lines) else (np.zeros(0, np.uint8), lines)
         count = words_of_lines(text, begin)
         starts = np.r_[0, np.cumsum(count)]
-        joined = text.tobytes()
-        slashes = None
-        if b'/' in joined:
-            words = np.flatnonzero(word_starts(text))
-            slashes = np.add.reduceat(text == ord('/'), words, dtype=np.int8)
-            if slashes.max() > 2 or slashes.min() < 0:
+        joined, slashes = text, None
+        slash = text == ord('/')
+        if slash.any():
+            places = np.flatnonzero(slash)
+            slashes = counts_between(places, np.flatnonzero(word_starts(text)), len(text))
+            if slashes.max() > 2:
                 self._complain_of_face()
-            joined = joined.replace(b'//', b'/0/')
-            joined = re.sub(rb'/(?=\s)', b'/0', joined).replace(b'/', b' ')
-        values = numbers(joined, np.int64)
-        if len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum(dtype=np.int64))):
+            follows = text[places + 1]
+            if (follows == ord('/')).any() or (follows <= 32).any():  # a number is left out
+                joined = re.sub(rb'/(?=[/\s])', b'/0', text.tobytes())
+                joined = joined.replace(b'/', b' ')
+            else:
+                joined = text.copy()
+                joined[slash] = 32
+        values = numbers(joined if isinstance(joined, bytes) else joined.tobytes(), np.int64)
+        if len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum())):
             self._complain_of_face()
         self._slashes = slashes
         texture = None
@@ -134,33 +144,40 @@ class ObjFile(MeshFile):
             if slashes.min() == slashes.max():
                 corner, texture = values.reshape(-1, slashes[0] + 1).T[:2]
             else:
-                at = np.cumsum(slashes + np.int64(1)) - slashes - 1
+                at = np.cumsum(slashes + 1) - slashes - 1
                 corner = values[at]
                 texture = np.where(slashes > 0, values[np.minimum(at + 1, len(values) - 1)], 0)
         else:
             corner = values
-        corner = self._from_zero(corner, self._is_v, count)
+        corner = self._from_zero(corner, self._v, count)
         self.set_polygons(corner, starts)
-        if texture is not None and self._is_vt.any() and (texture != 0).any():
-            points = self._rows(self._is_vt, 2, 1, 'texture coordinate')
-            points = np.c_[points, np.zeros(len(points))][:, :2]
-            index = self._from_zero(texture, self._is_vt, count)
-            given = texture != 0
-            beyond = given & ((index < 0) | (index >= len(points)))
-            if beyond.any():
-                self.messages.append(f'{counted(int(beyond.sum()), "corner")} of faces name a texture '
-                                     'coordinate that the file does not have')
-            uv = np.full((len(corner), 2), np.nan)
-            given &= ~beyond
-            uv[given] = points[index[given]]
-            self.uv = uv[self.corners]
+        if texture is not None and len(self._vt):
+            self._read_coordinates(texture, count)
 
-    def _from_zero(self, index, mask, count):
+    def _read_coordinates(self, texture, count):
+        points = self._rows(self._vt, 2, 1, 'texture coordinate')
+        points = np.c_[points, np.zeros(len(points))] if points.shape[1] == 1 else points[:, :2]
+        points = np.where(np.isnan(points), 0, points) if len(points) and np.isnan(points.sum()) else points
+        index = self._from_zero(texture, self._vt, count)
+        if len(index) and (index.min() < 0 or index.max() >= len(points)):
+            none = (index < 0) | (index >= len(points))
+            beyond = int((none & (texture != 0)).sum())
+            if beyond:
+                self.messages.append(f'{counted(beyond, "corner")} of faces name a texture coordinate '
+                                     'that the file does not have')
+            points = np.r_[points, [[np.nan, np.nan]]]
+            index[none] = len(points) - 1
+        uv = points[index]
+        self.uv = uv.reshape(-1, 3, 2) if self._polygons is None else uv[self.corners]
+        if np.isnan(self.uv).all():
+            self.uv = None
+
+    def _from_zero(self, index, lines, count):
         """Numbers from 1, or from -1 back from their line, as numbers from 0; beyond the end: -1."""
         result = index - 1
         if index.size and index.min() < 0:
-            before = np.repeat(np.cumsum(mask)[self._f], count)
-            result = np.where(index < 0, before + index, result)
+            before = np.repeat(np.searchsorted(lines, self._f), count)
+            result = np.where(index < 0, np.maximum(before + index, -1), result)
         return result
 
     def _complain_of_face(self):
@@ -175,10 +192,10 @@ class ObjFile(MeshFile):
     def _statements(self, keyword):
         """(line, what follows) of each line that begins with the keyword."""
         key = np.frombuffer(keyword, np.uint8)
-        at = np.minimum(self._word[:, None] + np.arange(len(key) + 1), len(self._text) - 1)
-        first = np.flatnonzero(self._text[self._word] == key[0])
-        at = at[first] if len(first) < len(at) else at
-        found = first[(self._text[at[:, :-1]] == key).all(1) & SPACE[self._text[at[:, -1]]]]
+        found = self._others[self._text[self._word[self._others]] == key[0]]
+        found = found[self._end[found] - self._word[found] > len(key)]
+        at = self._word[found, None] + np.arange(len(key) + 1)
+        found = found[(self._text[at[:, :-1]] == key).all(1) & (self._text[at[:, -1]] <= 32)]
         return [(int(line), self._text[self._word[line] + len(key):self._end[line]].tobytes().strip())
                 for line in found]
 
@@ -215,14 +232,14 @@ class ObjFile(MeshFile):
                     self.uv[current == k] = self.uv[current == k] * m.scale + m.offset
 
     def corner_normals(self):
-        if self._slashes is None or not (self._slashes == 2).any() or not self._is_vn.any():
+        if self._slashes is None or not (self._slashes == 2).any() or not len(self._vn):
             return None
-        rows = self._rows(self._is_vn, 2, 3, 'normal')
+        rows = self._rows(self._vn, 2, 3, 'normal')
         text, _ = self._lines_of(self._f, 1)
         third = re.findall(rb'[^\s/]+(?:/[^\s/]*(?:/([^\s/]*))?)?', text.tobytes())
         index = np.array([int(t) if t else 0 for t in third])
         count = np.diff(self.starts)
-        index = self._from_zero(index, self._is_vn, count)
+        index = self._from_zero(index, self._vn, count)
         if (index < 0).any() or (index >= len(rows)).any():
             return None
         return rows[index, :3].astype(np.float32)[self.corners]
@@ -243,26 +260,24 @@ class ObjFile(MeshFile):
         number = np.cumsum(used)
         corner_vt, vt, points = number[corner_vt - 1], number[vt - 1], points[used]
 
-        text = self._text[:len(self._data)]
-        keep = np.ones(len(text), bool)
-        line_of = [np.flatnonzero(self._is_vt)] + [np.array([l for l, _ in self._libraries], int)
-                                                   if texture is not None else np.zeros(0, int)]
-        for line in np.concatenate(line_of):
-            keep[self._begin[line]:self._end[line] + 1] = False
         torn_lines = self._f[new.torn]
+        gone = [self._vt, torn_lines]
+        if texture is not None:
+            gone.append(np.array([line for line, _ in self._libraries], int))
+        gone = np.concatenate(gone)
         at, end, plain = self._second_numbers()
-        place = np.zeros(len(text) + 2, np.int32)
-        place[at[~plain]] += 1
-        place[end[~plain]] -= 1
-        keep &= ~(np.cumsum(place[:len(text)]) > 0)
         rows, mask = digits(corner_vt, b'/')
         mask[~plain, 0] = False
-        mask[~stays] = False
-        written, moved = spliced(np.frombuffer(self._data, np.uint8), keep, np.where(plain, end, at), rows, mask)
+        begin = np.r_[at[stays], self._begin[gone]]
+        end = np.r_[end[stays], np.minimum(self._end[gone] + 1, len(self._data))]
+        order = np.argsort(begin, kind='stable')
+        rows = np.r_[rows[stays], np.zeros((len(gone), rows.shape[1]), np.uint8)][order]
+        mask = np.r_[mask[stays], np.zeros((len(gone), rows.shape[1]), bool)][order]
+        written, moved = spliced(np.frombuffer(self._data, np.uint8), begin[order], end[order], rows, mask)
 
         end_line = b'\r\n' if b'\r\n' in self._data[:10000] else b'\n'
         head = table('vt %.9g %.9g\n', points)
-        vertices, normal_count = [], int(self._is_vn.sum())
+        vertices, normal_count = [], len(self._vn)
         if len(new.points):
             vertices.append(self._new_vertices(new))
         pieces = {}
@@ -270,19 +285,18 @@ class ObjFile(MeshFile):
             pieces[line], normals = self._torn_line(new, p, vt, normal_count)
             normal_count += len(normals)
             vertices.append(b''.join(b'vn %.9g %.9g %.9g\n' % tuple(n) for n in normals))
-        first = int(self._begin[self._f[0]]) if len(self._f) else len(text)
+        first = int(self._begin[self._f[0]]) if len(self._f) else len(self._data)
         materials = b''
         if texture is not None:
             materials, said = self._write_materials(folder, stem, texture)
             messages += said
         else:
             messages += self._copy_materials(folder)
-        inserts = [(first, first, (b''.join(vertices) + head + materials))]
-        inserts += [(int(self._word[l]), int(self._end[l]), pieces[l]) for l in torn_lines]
+        pieces = [(int(self._begin[line]), pieces[line] + b'\n') for line in torn_lines]
         out, done = [], 0
-        for begin, stop, content in inserts:
-            out += [written[done:moved(begin)], content.replace(b'\n', end_line)]
-            done = moved(min(stop, len(text)))
+        for place, content in [(first, b''.join(vertices) + head + materials)] + pieces:
+            out += [written[done:moved(place)], content.replace(b'\n', end_line)]
+            done = moved(place)
         out.append(written[done:])
         write_file(path, b''.join(out))
         return messages
@@ -290,32 +304,19 @@ class ObjFile(MeshFile):
     def _second_numbers(self):
         """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
         lines = self._f
-        text = self._text
-        mark = np.zeros(len(text) + 1, np.int8)
-        mark[self._word[lines] + 1] += 1
-        mark[self._end[lines]] -= 1
-        inside = np.cumsum(mark[:-1], dtype=np.int8).view(bool)
-        for line in lines[self._has_comment(lines)]:
-            begin, end = self._begin[line], self._end[line]
-            inside[begin + int(np.argmax(text[begin:end] == ord('#'))):end] = False
-        letter = inside & ~SPACE[text]
-        word = letter.copy()
-        word[1:] &= ~letter[:-1]
-        begin = np.flatnonzero(word)
-        stop = letter.copy()
-        stop[:-1] &= ~letter[1:]
-        end = np.flatnonzero(stop) + 1
-        slash = np.flatnonzero(inside & (text == ord('/')))
-        slash = np.r_[slash, len(text), len(text)]
-        one = np.searchsorted(slash, begin)
-        plain = slash[one] >= end
-        at = np.where(plain, end, slash[one] + 1)
-        two = np.where(plain, end, np.minimum(slash[np.minimum(one + 1, len(slash) - 1)], end))
-        return at, two, plain
-
-    def _has_comment(self, lines):
-        hashes = np.flatnonzero(self._text == ord('#'))
-        return np.searchsorted(hashes, self._begin[lines]) != np.searchsorted(hashes, self._end[lines])
+        if not len(lines):
+            return np.zeros(0, int), np.zeros(0, int), np.zeros(0, bool)
+        text, begin = self._lines_of(lines, 1)
+        first = np.flatnonzero(word_starts(text))
+        last = np.flatnonzero((text[:-1] > 32) & (text[1:] <= 32)) + 1
+        moved = np.repeat(self._begin[lines] - begin, np.diff(self.starts))
+        if self._slashes is None:
+            return last + moved, last + moved, np.ones(len(first), bool)
+        slash = np.r_[np.flatnonzero(text == ord('/')), 0, 0]
+        one = np.cumsum(self._slashes) - self._slashes
+        plain = self._slashes == 0
+        at = np.where(plain, last, slash[one] + 1)
+        return at + moved, np.where(self._slashes == 2, slash[one + 1], last) + moved, plain
 
     def _words(self, line):
         text = without_comments(self._text[self._word[line]:self._end[line]].tobytes())
@@ -325,9 +326,9 @@ class ObjFile(MeshFile):
         """The triangles in place of polygon p, and the normals that they need."""
         words = [w.split(b'/') for w in self._words(self._f[p])]
         normals, lines = [], []
-        has_normals = all(len(w) > 2 and w[2] for w in words) and self._is_vn.any()
+        has_normals = all(len(w) > 2 and w[2] for w in words) and len(self._vn)
         given = self._normal_values if has_normals else None
-        seen = int(np.cumsum(self._is_vn)[self._f[p]]) if has_normals else 0
+        seen = int(np.searchsorted(self._vn, self._f[p])) if has_normals else 0
         for t in new.triangles(p):
             line = []
             for k in range(3):
@@ -356,7 +357,7 @@ class ObjFile(MeshFile):
 
     @cached_property
     def _normal_values(self):
-        return self._rows(self._is_vn, 2, 3, 'normal')[:, :3]
+        return self._rows(self._vn, 2, 3, 'normal')[:, :3]
 
     def _new_vertices(self, new):
         """Lines v of the vertices that a refinement adds."""

@@ -320,16 +320,19 @@ class PlyFile(MeshFile):
         name = next((p for p in _INDICES if face and p in face.types and face.types[p][1]), None)
         self._indices = name
         if name is None:
-            return self.set_polygons(np.zeros(0, np.int64), np.zeros(1, np.int64))
+            return self.set_polygons(np.zeros((0, 3), np.int64))
         counts, values = face.columns[name]
-        starts = np.r_[0, np.cumsum(np.broadcast_to(counts, face.count), dtype=np.int64)]
-        self.set_polygons(np.ravel(values).astype(np.int64, copy=False), starts)
+        if np.isscalar(counts) and counts == 3:
+            self.set_polygons(values)
+        else:
+            starts = np.r_[0, np.cumsum(np.broadcast_to(counts, face.count), dtype=np.int64)]
+            self.set_polygons(np.ravel(values), starts)
         colours = _colours(face)
         self.face_colours = None if colours is None else colours[self.polygon]
         names = [line.split(None, 2)[2].strip() for line in self._header
                  if line.split()[:2] == ['comment', 'TextureFile'] and len(line.split()) > 2]
         self.pictures = [_pictures.Picture(n, beside(self.path.parent, n)) for n in names]
-        self.uv = self._coordinates(vertex, face, starts)
+        self.uv = self._coordinates(vertex, face)
         if self.uv is not None and names:
             number = face.columns['texnumber'] if face.types.get('texnumber', ('', 1))[1] is None else 0
             number = np.broadcast_to(number, face.count).astype(np.int64)[self.polygon]
@@ -337,11 +340,11 @@ class PlyFile(MeshFile):
             self.uv_picture = np.where(known, number, -1).astype(np.int32)
         return None
 
-    def _coordinates(self, vertex, face, starts):
+    def _coordinates(self, vertex, face):
         if face.types.get('texcoord', ('', None))[1]:
             counts, values = face.columns['texcoord']
             counts = np.broadcast_to(counts, face.count)
-            uv, own = np.full((int(starts[-1]), 2), np.nan), np.diff(starts)
+            uv, own = np.full((int(self.starts[-1]), 2), np.nan), np.diff(self.starts)
             full = counts == 2 * own
             value = np.repeat(full, counts)
             uv[np.repeat(full, own)] = np.ravel(values)[value].reshape(-1, 2)

@@ -67,9 +67,7 @@ class MeshFile:
         self.path = Path(path)
         self.vertices = np.zeros((0, 3))  # (V, 3) float64
         self.faces = np.zeros((0, 3), np.int32)  # (F, 3) triangles, in the order of the file
-        self.polygon = np.zeros(0, np.int32)  # (F,) the polygon of each triangle
-        self.corners = np.zeros((0, 3), np.int64)  # (F, 3) the corner of the file of each corner
-        self.starts = np.zeros(1, np.int64)  # (P + 1,) the first corner of each polygon
+        self._polygons = None  # starts, corners, polygon of MeshFile.starts and so on; None: all triangles
         self.diagonals = np.zeros((0, 3), bool)  # (F, 3) side k, from corner k to k + 1, is inside a polygon
         self.uv = None  # (F, 3, 2) float64, NaN where a face has none
         self.uv_picture = None  # (F,) index in pictures, -1: none
@@ -80,24 +78,54 @@ class MeshFile:
         self.parts = []
         self.messages = []
 
+    @property
+    def all_triangles(self):
+        """Whether every polygon of the file is a triangle."""
+        return self._polygons is None
+
+    @cached_property
+    def starts(self):
+        """(P + 1,) the first corner of each polygon of the file."""
+        return np.arange(0, 3 * len(self.faces) + 1, 3) if self._polygons is None else self._polygons[0]
+
+    @cached_property
+    def corners(self):
+        """(F, 3) the corner of the file, counted over all its polygons, at each corner of `faces`."""
+        return np.arange(self.faces.size).reshape(-1, 3) if self._polygons is None else self._polygons[1]
+
+    @cached_property
+    def polygon(self):
+        """(F,) the polygon of the file that each triangle is of."""
+        return np.arange(len(self.faces)) if self._polygons is None else self._polygons[2]
+
     # What the readers of the formats call
 
-    def set_polygons(self, corner_vertices, starts):
-        """Triangulates; `corner_vertices` (C,) and the first corner of each polygon, (P + 1,)."""
-        count = np.diff(starts)
-        few = int((count < 3).sum())
-        if few:
-            self.messages.append(f'{counted(few, "face")} with less than 3 corners, '
-                                 f'first face {int((count < 3).argmax()) + 1}: not mapped')
-        bad = (corner_vertices < 0) | (corner_vertices >= len(self.vertices))
-        if bad.any():
+    def set_polygons(self, corner_vertices, starts=None):
+        """Triangulates (C,) vertices at corners; `starts` (P + 1,) are the first of each polygon.
+
+        Triangles come as (F, 3) without `starts`.
+        """
+        if corner_vertices.dtype.itemsize > 4 or corner_vertices.dtype.kind != 'i':
+            corner_vertices = np.clip(corner_vertices, -1, np.iinfo(np.int32).max)
+        corner_vertices = corner_vertices.astype(np.int32, order='C')
+        if corner_vertices.size and (corner_vertices.min() < 0 or corner_vertices.max() >= len(self.vertices)):
+            flat = corner_vertices.ravel()
+            bad = (flat < 0) | (flat >= len(self.vertices))
             corner = int(bad.argmax())
-            face = int(np.searchsorted(starts, corner, 'right'))
+            face = corner // 3 + 1 if starts is None else int(np.searchsorted(starts, corner, 'right'))
             raise FileError(f'{self.path.name}: {counted(int(bad.sum()), "corner")} of faces, first of face '
                             f'{face}, name a vertex beyond the {len(self.vertices)} of the file')
-        self.starts = starts
-        self.corners, self.polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
-        self.faces = corner_vertices.astype(np.int32)[self.corners]
+        if starts is None or (np.diff(starts) == 3).all():
+            self.faces = corner_vertices.reshape(-1, 3)
+            self.diagonals = np.broadcast_to(np.False_, self.faces.shape)
+        else:
+            few = np.diff(starts) < 3
+            if few.any():
+                self.messages.append(f'{counted(int(few.sum()), "face")} with less than 3 corners, first face '
+                                     f'{int(few.argmax()) + 1}: not mapped')
+            corners, polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
+            self._polygons = starts, corners, polygon
+            self.faces = corner_vertices[corners]
         self.parts = self.parts or [Part(self.path.stem, slice(0, len(self.faces)),
                                          slice(0, len(self.vertices)))]
         self.messages += remarks(self.vertices, self.faces)
@@ -180,8 +208,11 @@ def counted(count, noun):
 def remarks(vertices, faces):
     """Sentences about vertices and faces that a map cannot be true to, for files and arrays alike."""
     messages = []
-    finite = np.isfinite(vertices).all(1)
-    if not finite.all():
+    with np.errstate(all='ignore'):
+        finite = np.isfinite(vertices.sum())  # of all, if it is
+    if not finite:
+        finite = np.isfinite(vertices).all(1)
+    if not np.all(finite):
         used = int((~finite)[faces].any(1).sum())
         messages.append(f'{counted(int((~finite).sum()), "vertex").replace("vertexs", "vertices")} with '
                         f'coordinates that are not finite numbers, first vertex {int(finite.argmin())}, '
@@ -348,25 +379,30 @@ class Rewritten:
 
 def rewritten(mesh, uv, refined):
     """Which polygons of the file stay, and the coordinates of all."""
-    count = len(mesh.starts) - 1
+    count, whole = len(mesh.starts) - 1, np.eye(3)
     torn = np.zeros(count, bool)
-    whole = np.tile(np.eye(3), (len(mesh.faces), 1, 1)) if refined is None else refined.weights
-    origin = np.arange(len(mesh.faces)) if refined is None else refined.origin
-    vertices, points, samples = mesh.faces, np.zeros((0, 3)), np.zeros((0, 2), np.int64)
-    polygon = mesh.polygon[origin]
-    if refined is not None:
-        same = (whole == np.eye(3)).all((1, 2))
-        torn[polygon[~same]] = True
+    if refined is None:
+        origin, polygon = np.arange(len(mesh.faces)), mesh.polygon
+        weights = np.broadcast_to(whole, (len(origin), 3, 3))
+        vertices, points, samples = mesh.faces, np.zeros((0, 3)), np.zeros((0, 2), np.int64)
+        order = origin
+    else:
+        origin, weights = refined.origin, refined.weights
+        polygon = mesh.polygon[origin]
+        torn[polygon[(weights != whole).any((1, 2))]] = True
         torn |= np.bincount(polygon, minlength=count) != np.bincount(mesh.polygon, minlength=count)
         vertices, points, samples = _numbered(mesh, refined)
-    corner_uv = np.zeros((int(mesh.starts[-1]), 2))
-    stays = ~torn[polygon]
-    corner_uv[mesh.corners[origin[stays]]] = uv[stays]
-    differs = (corner_uv[mesh.corners[origin]] != uv).any((1, 2)) & stays
-    torn[polygon[differs]] = True
-    order = np.argsort(polygon, kind='stable')
-    first = np.searchsorted(polygon[order], np.arange(count + 1))
-    return Rewritten(corner_uv, torn, first, order, uv, vertices, origin, whole, points, samples)
+        order = np.argsort(polygon, kind='stable')
+    if mesh.all_triangles and refined is None:
+        corner_uv, first = uv.reshape(-1, 2), np.arange(count + 1)
+    else:
+        first = np.searchsorted(polygon[order], np.arange(count + 1))
+        corner_uv = np.zeros((int(mesh.starts[-1]), 2))
+        stays = ~torn[polygon]
+        corner_uv[mesh.corners[origin[stays]]] = uv[stays]
+        differs = (corner_uv[mesh.corners[origin]] != uv).any((1, 2)) & stays
+        torn[polygon[differs]] = True
+    return Rewritten(corner_uv, torn, first, order, uv, vertices, origin, weights, points, samples)
 
 
 def _numbered(mesh, refined):
@@ -392,41 +428,44 @@ def mixed(values, weights):
 
 def distinct(pairs):
     """Rows of (n, 2) float64 that differ, and the number of each row's."""
-    bits = np.ascontiguousarray(pairs).view(np.dtype((np.void, 16))).ravel()
-    _, where, index = np.unique(bits, return_index=True, return_inverse=True)
+    _, where, index = np.unique(np.ascontiguousarray(pairs).view(np.complex128), return_index=True,
+                                return_inverse=True)
     return pairs[where], index.ravel()
 
 
 # Text
-
-SPACE = np.zeros(256, bool)
-SPACE[[9, 10, 11, 12, 13, 32]] = True
-
 
 def numbers(text, dtype=np.float64):
     """The numbers of a text (bytes) up to the first word that is none."""
     with warnings.catch_warnings():
         warnings.simplefilter('ignore', DeprecationWarning)
         try:
-            return np.fromstring(text, dtype, sep=' ') if text.strip() else np.zeros(0, dtype)
+            return np.fromstring(text, dtype, sep=' ') if text and not text.isspace() else np.zeros(0, dtype)
         except ValueError:  # from numpy 3 on, words that are no numbers
             return np.zeros(0, dtype)
 
 
 def word_starts(text):
-    """(n,) bool: at the first letters of words; `text` as uint8."""
-    space = SPACE[text]
-    start = ~space
-    start[1:] &= space[:-1]
+    """(n,) bool: at the first letters of words; `text` as uint8, in which up to 32 all is space."""
+    start = text > 32
+    start[1:] &= text[:-1] <= 32
     return start
+
+
+def counts_between(at, begins, end):
+    """How many of the ascending places `at` lie from each of the ascending `begins` to the next one."""
+    if not len(begins):
+        return np.zeros(0, np.int64)
+    each, rest = divmod(len(at), len(begins))
+    if not rest and each:  # the same number everywhere, most of the time
+        if (at[::each] >= begins).all() and (at[each - 1:-1:each] < begins[1:]).all():
+            return np.full(len(begins), each)
+    return np.diff(np.searchsorted(at, np.r_[begins, end]))
 
 
 def words_of_lines(text, starts):
     """Number of words in each line; `starts` are the lines' first bytes in `text` (uint8)."""
-    if not len(starts):
-        return np.zeros(0, np.int64)
-    marks = word_starts(text).view(np.uint8)
-    return np.add.reduceat(np.r_[marks, np.uint8(0)], starts, dtype=np.int32).astype(np.int64)
+    return counts_between(np.flatnonzero(word_starts(text)), starts, len(text))
 
 
 def without_comments(text):
@@ -437,24 +476,23 @@ def without_comments(text):
                       for line in text.split(b'\n'))
 
 
-def spliced(text, keep, at, rows, mask):
-    """`text` (uint8) where `keep`, and before byte at[k], ascending, the bytes rows[k][mask[k]].
+def spliced(text, begin, end, rows, mask):
+    """`text` (uint8) with the bytes rows[k][mask[k]] in place of begin[k]:end[k], ascending and disjoint.
 
-    Returns: (bytes, position): position[p] is where byte p of `text` has gone.
+    Returns: (bytes, moved): moved(p) is where byte p of `text`, which is in no such place, has gone.
     """
     lengths = mask.sum(1)
-    kept = np.r_[0, np.cumsum(keep)]
-    begin = kept[at] + np.cumsum(lengths) - lengths
-    total = int(kept[-1] + lengths.sum())
-    edge = np.zeros(total + 1, np.int32)
-    np.add.at(edge, begin, 1)
-    np.add.at(edge, begin + lengths, -1)
-    new = np.cumsum(edge[:-1]) > 0
-    result = np.empty(total, np.uint8)
-    result[new] = rows[mask]
-    result[~new] = text[keep]
-    added = np.r_[0, np.cumsum(lengths)]
-    return result.tobytes(), lambda p: kept[p] + added[np.searchsorted(at, p, 'left')]
+    gaps = np.r_[begin, len(text)] - np.r_[0, end]
+    other = np.tile([True, False], len(gaps))[:-1]
+    spans = np.empty(len(other), np.int64)
+    spans[::2], spans[1::2] = gaps, end - begin
+    kept = text[np.repeat(other, spans)]
+    spans[1::2] = lengths
+    new = np.repeat(~other, spans)
+    result = np.empty(len(new), np.uint8)
+    result[new], result[~new] = rows[mask], kept
+    grown = np.r_[0, np.cumsum(lengths - (end - begin))]
+    return result.tobytes(), lambda p: int(p + grown[np.searchsorted(begin, p, 'left')])
 
 
 def digits(values, lead=b''):
