@@ -9,11 +9,21 @@ All that is in the file stays in it; see MeshFile.save.
 
 from pathlib import Path
 
-from . import _obj, _ply
-from ._pictures import Picture
+from . import _gltf, _obj, _off, _pictures, _ply, _stl, _threemf
+from ._pictures import Picture, decode as read_picture, write as write_picture
 from ._shared import FileError, MeshFile, Part, Refined, remarks
 
-_READERS = {'.obj': _obj.ObjFile, '.ply': _ply.PlyFile}
+__all__ = ['FileError', 'MeshFile', 'Part', 'Picture', 'Refined', 'read', 'read_picture', 'remarks',
+           'write_picture']
+
+_READERS = {'.obj': _obj.ObjFile, '.ply': _ply.PlyFile, '.glb': _gltf.GltfFile, '.gltf': _gltf.GltfFile,
+            '.stl': _stl.StlFile, '.off': _off.OffFile, '.3mf': _threemf.ThreeMfFile}
+_PLAIN = {'.obj': _obj.plain, '.ply': _ply.plain, '.glb': _gltf.plain, '.gltf': _gltf.plain,
+          '.3mf': _threemf.plain}
+READ = tuple(_READERS)
+"""Endings of files that are read."""
+WRITTEN = tuple(_PLAIN)
+"""Endings of files that are written."""
 
 
 def read(path):
@@ -24,11 +34,28 @@ def read(path):
     path = Path(path)
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
-        raise FileError(f'{path.name}: {path.suffix or "no ending"} is not read here; '
-                        f'{", ".join(_READERS)} are')
+        raise FileError(f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
+                        f'or PyMeshLab; {", ".join(READ)} are')
     try:
         return reader(path)
     except FileNotFoundError:
         raise FileError(f'{path} does not exist') from None
     except OSError as error:
         raise FileError(f'{path} cannot be read: {error.strerror}') from error
+
+
+def _converted(_, path, mesh):
+    """A PlainMesh as a file of the path's format, without coordinates, with the same triangles."""
+    plain = _PLAIN.get(path.suffix.lower())
+    if plain is None:
+        raise FileError(f'{path.name}: files that end with {path.suffix or "nothing"} are not written; '
+                        f'{", ".join(WRITTEN)} are')
+    target = _READERS[path.suffix.lower()](path, plain(mesh))
+    target.messages = []
+    target._polygons, target.diagonals = mesh._polygons, mesh.diagonals
+    if mesh._polygons is not None:
+        target.faces = mesh.faces
+    return target
+
+
+MeshFile._converted = _converted  # it knows all formats

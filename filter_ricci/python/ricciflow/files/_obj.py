@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, MeshFile, beside, copy_beside, counted, counts_between, digits, distinct, mixed,
-                      numbers, relative, rewritten, spliced, table, word_starts, without_comments,
+from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, counts_between, digits, distinct,
+                      mixed, numbers, relative, rewritten, spliced, table, word_starts, without_comments,
                       words_of_lines, write_file)
 
 # Options of map_Kd and how many words follow; -o, -s, -t have up to three numbers.
@@ -26,63 +26,20 @@ class ObjFile(MeshFile):
         text = self._data
         if b'\\' in text:  # continued lines
             text = re.sub(rb'\\\r?\n', lambda m: b' ' * len(m[0]), text)
-        if b'\n' not in text:
-            text = text.replace(b'\r', b'\n')
-        self._text = np.frombuffer(text + b'\n\n\n', np.uint8)  # each line has an end and words of two letters
-        self._find_lines()
+        self._lines = lines = Lines(text)
+        self._v, self._f = lines.beginning(b'v'), lines.beginning(b'f')
+        self._vt, self._vn = lines.beginning(b'vt'), lines.beginning(b'vn')
         self._read_vertices()
         self._read_faces()
         self._read_materials()
 
     # Reading
 
-    def _find_lines(self):
-        text = self._text
-        self._end = np.flatnonzero(text[:-2] == 10)
-        self._begin = np.empty_like(self._end)
-        self._begin[0], self._begin[1:] = 0, self._end[:-1] + 1
-        word = self._begin
-        letter = text[word]
-        if ((letter <= 32) & (letter != 10)).any():
-            letters = np.flatnonzero(text[:-2] > 32)
-            word = np.minimum(np.r_[letters, len(text)][np.searchsorted(letters, word)], self._end)
-            letter = text[word]
-        self._word = word
-        following = text[word + 1]
-        short = following <= 32
-        is_v = letter == ord('v')
-        self._v = np.flatnonzero(is_v & short)
-        self._f = np.flatnonzero((letter == ord('f')) & short)
-        others = np.flatnonzero(is_v & ~short & (text[word + np.where(short, 0, 2)] <= 32))
-        self._vt = others[following[others] == ord('t')]
-        self._vn = others[following[others] == ord('n')]
-        self._others = np.flatnonzero(~is_v & (letter != ord('f')))
-
-    def _lines_of(self, lines, skipped):
-        """Text of the lines with their first `skipped` letters blank, and where each begins in it."""
-        begin, end = self._begin[lines], self._end[lines] + 1
-        length = end - begin
-        if lines[-1] - lines[0] + 1 == len(lines):
-            text = self._text[begin[0]:end[-1]].copy()
-        else:
-            first, last = lines[0], lines[-1] + 1
-            wanted = np.zeros(last - first, bool)
-            wanted[lines - first] = True
-            part = slice(self._begin[first], self._end[last - 1] + 1)
-            text = self._text[part][np.repeat(wanted, np.diff(np.r_[self._begin[first:last], part.stop]))]
-        new = np.cumsum(length) - length
-        first = new + self._word[lines] - begin
-        for k in range(skipped):
-            text[first + k] = 32
-        if (text == ord('#')).any():
-            text = np.frombuffer(without_comments(text.tobytes()), np.uint8)
-        return text, new
-
     def _rows(self, lines, skipped, least, what):
         """Numbers of the lines, (n, the most in a line) with NaN where a line has less."""
         if not len(lines):
             return np.zeros((0, least))
-        text, begin = self._lines_of(lines, skipped)
+        text, begin = self._lines.text(lines, skipped)
         count = words_of_lines(text, begin)
         values = numbers(text.tobytes())
         if len(values) != count.sum() or count.min() < least:
@@ -98,14 +55,14 @@ class ObjFile(MeshFile):
 
     def _complain(self, lines, least, what):
         for line in lines:
-            words = without_comments(self._text[self._word[line]:self._end[line]].tobytes()).split()[1:]
+            words = self._lines.words(line)[1:]
             try:
                 good = len(words) >= least and all(np.isscalar(float(w)) for w in words)
             except ValueError:
                 good = False
             if not good:
                 raise FileError(f'{self.path.name}: line {line + 1} is no {what}: '
-                                f'{_shown(self._text[self._word[line]:self._end[line]])}')
+                                f'{self._lines.shown(line)}')
         raise FileError(f'{self.path.name}: a {what} cannot be read')
 
     def _read_vertices(self):
@@ -118,7 +75,7 @@ class ObjFile(MeshFile):
 
     def _read_faces(self):
         lines = self._f
-        text, begin = self._lines_of(lines, 1) if len(lines) else (np.zeros(0, np.uint8), lines)
+        text, begin = self._lines.text(lines, 1) if len(lines) else (np.zeros(0, np.uint8), lines)
         count = words_of_lines(text, begin)
         starts = np.r_[0, np.cumsum(count)]
         joined, slashes = text, None
@@ -183,21 +140,15 @@ class ObjFile(MeshFile):
     def _complain_of_face(self):
         good = re.compile(rb'[+-]?\d+(/([+-]?\d*)(/[+-]?\d*)?)?')
         for line in self._f:
-            words = without_comments(self._text[self._word[line]:self._end[line]].tobytes()).split()[1:]
+            words = self._lines.words(line)[1:]
             if not all(good.fullmatch(w) for w in words):
                 raise FileError(f'{self.path.name}: line {line + 1} is no face: '
-                                f'{_shown(self._text[self._word[line]:self._end[line]])}')
+                                f'{self._lines.shown(line)}')
         raise FileError(f'{self.path.name}: the faces cannot be read')
 
     def _statements(self, keyword):
         """(line, what follows) of each line that begins with the keyword."""
-        key = np.frombuffer(keyword, np.uint8)
-        found = self._others[self._text[self._word[self._others]] == key[0]]
-        found = found[self._end[found] - self._word[found] > len(key)]
-        at = self._word[found, None] + np.arange(len(key) + 1)
-        found = found[(self._text[at[:, :-1]] == key).all(1) & (self._text[at[:, -1]] <= 32)]
-        return [(int(line), self._text[self._word[line] + len(key):self._end[line]].tobytes().strip())
-                for line in found]
+        return [(int(line), self._lines.rest(line, len(keyword))) for line in self._lines.beginning(keyword)]
 
     def _read_materials(self):
         used = self._statements(b'usemtl')
@@ -235,7 +186,7 @@ class ObjFile(MeshFile):
         if self._slashes is None or not (self._slashes == 2).any() or not len(self._vn):
             return None
         rows = self._rows(self._vn, 2, 3, 'normal')
-        text, _ = self._lines_of(self._f, 1)
+        text, _ = self._lines.text(self._f, 1)
         third = re.findall(rb'[^\s/]+(?:/[^\s/]*(?:/([^\s/]*))?)?', text.tobytes())
         index = np.array([int(t) if t else 0 for t in third])
         count = np.diff(self.starts)
@@ -268,8 +219,8 @@ class ObjFile(MeshFile):
         at, end, plain = self._second_numbers()
         rows, mask = digits(corner_vt, b'/')
         mask[~plain, 0] = False
-        begin = np.r_[at[stays], self._begin[gone]]
-        end = np.r_[end[stays], np.minimum(self._end[gone] + 1, len(self._data))]
+        begin = np.r_[at[stays], self._lines.begin[gone]]
+        end = np.r_[end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data))]
         order = np.argsort(begin, kind='stable')
         rows = np.r_[rows[stays], np.zeros((len(gone), rows.shape[1]), np.uint8)][order]
         mask = np.r_[mask[stays], np.zeros((len(gone), rows.shape[1]), bool)][order]
@@ -285,14 +236,14 @@ class ObjFile(MeshFile):
             pieces[line], normals = self._torn_line(new, p, vt, normal_count)
             normal_count += len(normals)
             vertices.append(b''.join(b'vn %.9g %.9g %.9g\n' % tuple(n) for n in normals))
-        first = int(self._begin[self._f[0]]) if len(self._f) else len(self._data)
+        first = int(self._lines.begin[self._f[0]]) if len(self._f) else len(self._data)
         materials = b''
         if texture is not None:
             materials, said = self._write_materials(folder, stem, texture)
             messages += said
         else:
             messages += self._copy_materials(folder)
-        pieces = [(int(self._begin[line]), pieces[line] + b'\n') for line in torn_lines]
+        pieces = [(int(self._lines.begin[line]), pieces[line] + b'\n') for line in torn_lines]
         out, done = [], 0
         for place, content in [(first, b''.join(vertices) + head + materials)] + pieces:
             out += [written[done:moved(place)], content.replace(b'\n', end_line)]
@@ -306,10 +257,10 @@ class ObjFile(MeshFile):
         lines = self._f
         if not len(lines):
             return np.zeros(0, int), np.zeros(0, int), np.zeros(0, bool)
-        text, begin = self._lines_of(lines, 1)
+        text, begin = self._lines.text(lines, 1)
         first = np.flatnonzero(word_starts(text))
         last = np.flatnonzero((text[:-1] > 32) & (text[1:] <= 32)) + 1
-        moved = np.repeat(self._begin[lines] - begin, np.diff(self.starts))
+        moved = np.repeat(self._lines.begin[lines] - begin, np.diff(self.starts))
         if self._slashes is None:
             return last + moved, last + moved, np.ones(len(first), bool)
         slash = np.r_[np.flatnonzero(text == ord('/')), 0, 0]
@@ -318,13 +269,9 @@ class ObjFile(MeshFile):
         at = np.where(plain, last, slash[one] + 1)
         return at + moved, np.where(self._slashes == 2, slash[one + 1], last) + moved, plain
 
-    def _words(self, line):
-        text = without_comments(self._text[self._word[line]:self._end[line]].tobytes())
-        return text.split()[1:]
-
     def _torn_line(self, new, p, vt, normal_count):
         """The triangles in place of polygon p, and the normals that they need."""
-        words = [w.split(b'/') for w in self._words(self._f[p])]
+        words = [w.split(b'/') for w in self._lines.words(self._f[p])[1:]]
         normals, lines = [], []
         has_normals = all(len(w) > 2 and w[2] for w in words) and len(self._vn)
         given = self._normal_values if has_normals else None
@@ -391,7 +338,7 @@ class ObjFile(MeshFile):
             elif word != b'kd':
                 out.append(line + b'\n')
         out += [b'newmtl %s\n' % name + shows for name in names if name not in defined]
-        first_used = min((line for line, _ in self._statements(b'usemtl')), default=len(self._end))
+        first_used = min((line for line, _ in self._statements(b'usemtl')), default=len(self._lines.end))
         bare = len(self._f) and self._f[0] < first_used
         use = b''
         if bare:
@@ -480,6 +427,3 @@ def plain(mesh):
 def _text(name):
     return name.decode('utf-8', 'surrogateescape') if isinstance(name, bytes) else name
 
-
-def _shown(text):
-    return text.tobytes()[:60].decode('utf-8', 'replace')

@@ -28,7 +28,7 @@ class Part:
     @property
     def scale(self):
         """Units of the scene in one unit of the part, the largest of its places; counts for texels."""
-        return max((abs(np.linalg.det(m[:3, :3])) ** (1 / 3) for m in self.matrices), default=1.0) or 1.0
+        return max((float(abs(np.linalg.det(m[:3, :3])) ** (1 / 3)) for m in self.matrices), default=1.0) or 1.0
 
     @property
     def mirrored(self):
@@ -184,20 +184,78 @@ class MeshFile:
         uv = uv + 0.0  # no -0
         if texture is not None and not Path(texture).is_file():
             raise FileError(f'the texture {texture} is not a file')
-        same = self._same_format(path)
-        target = self if same else self._converted(path, refined)
-        messages = target._patch(path, uv, texture, refined, uv_set)
-        return messages + (target.messages if not same else [])
+        if self._same_format(path):
+            return self._patch(path, uv, texture, refined, uv_set)
+        plain, uv, messages = placed(self, uv, refined, texture is not None)
+        target = self._converted(path, plain)
+        return messages + target._patch(path, uv, texture, None, uv_set)
 
     def _same_format(self, path):
         return path.suffix.lower() == self.path.suffix.lower()
 
     def _patch(self, path, uv, texture, refined, uv_set):
-        raise FileError(f'{path.name}: {path.suffix or "no ending"} cannot be written; '
-                        'use .obj, .ply, .glb, .gltf or .3mf')
+        raise NotImplementedError
 
-    def _converted(self, path, refined):
+    def _converted(self, path, plain):
         raise NotImplementedError  # set by the package, which knows all formats
+
+
+class PlainMesh(MeshFile):
+    """Arrays on their way to another format: vertices, polygons, colours, normals."""
+
+    colours = normals = None  # (F, 3, 4) and (F, 3, 3)
+
+    def corner_colours(self):
+        return self.colours
+
+    def corner_normals(self):
+        return self.normals
+
+
+def placed(mesh, uv, refined, shows_picture):
+    """The mesh as it lies in its scene, as PlainMesh with linear colours if it has them, uv, and sentences."""
+    plain, messages = PlainMesh(mesh.path), []
+    colours, normals = None if shows_picture else mesh.corner_colours(), mesh.corner_normals()
+    if mesh.pictures and not shows_picture:
+        messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format')
+    vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
+    if refined is not None:
+        vertices, faces, origin = refined.vertices, refined.faces, refined.origin
+        colours, normals = (None if a is None else mixed(a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]),
+                                                         refined.weights.reshape(-1, 3)).reshape(-1, *a.shape[1:])
+                            for a in (colours, normals))
+    if refined is None and all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts):
+        plain.vertices, plain.faces, plain._polygons = vertices, faces, mesh._polygons
+        plain.diagonals, plain.colours, plain.normals = mesh.diagonals, colours, normals
+    else:
+        lists = [], [], [], [], []
+        count = 0
+        for part in mesh.parts:
+            mine = np.flatnonzero((origin >= part.faces.start) & (origin < part.faces.stop))
+            used, index = np.unique(faces[mine], return_inverse=True)
+            for matrix in part.matrices:
+                turn = matrix[:3, :3] * ([-1, 1, 1] if part.mirrored else [1, 1, 1])
+                order = [0, 1, 2] if np.linalg.det(turn) >= 0 else [0, 2, 1]
+                lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
+                lists[1].append(index.reshape(-1, 3)[:, order] + count)
+                lists[2].append(uv[mine][:, order])
+                if colours is not None:
+                    lists[3].append(colours[mine][:, order])
+                if normals is not None:
+                    adjugate = np.stack([np.cross(turn[k - 2], turn[k - 1]) for k in range(3)])
+                    lists[4].append((normals[mine] @ adjugate.T)[:, order])
+                count += len(used)
+        plain.vertices, plain.faces, uv = (np.concatenate(a) if a else b for a, b in zip(
+            lists, (np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 3, 2)))))
+        plain.faces = plain.faces.astype(np.int32)
+        plain.diagonals = np.broadcast_to(np.False_, plain.faces.shape)
+        plain.colours, plain.normals = (np.concatenate(a) if a else None for a in lists[3:])
+    if plain.colours is not None:
+        of_vertex = np.ones((len(plain.vertices), 4), np.float32)
+        of_vertex[plain.faces] = plain.colours
+        if np.array_equal(of_vertex[plain.faces], plain.colours):
+            plain.vertex_colours = of_vertex
+    return plain, uv, messages
 
 
 def counted(count, noun):
@@ -474,6 +532,73 @@ def without_comments(text):
         return text
     return b'\n'.join(line if b'#' not in line else line[:line.index(b'#')].ljust(len(line))
                       for line in text.split(b'\n'))
+
+
+class Lines:
+    """The lines of a text: where each begins, has its first word, and ends."""
+
+    def __init__(self, text):
+        if b'\n' not in text:
+            text = text.replace(b'\r', b'\n')
+        self._all = np.frombuffer(text + b'\n\n\n', np.uint8)  # each line has an end, and two letters
+        text = self._all
+        self.end = np.flatnonzero(text[:-2] == 10)
+        self.begin = np.empty_like(self.end)
+        self.begin[0], self.begin[1:] = 0, self.end[:-1] + 1
+        self.word, letter = self.begin, text[self.begin]
+        if ((letter <= 32) & (letter != 10)).any():
+            letters = np.flatnonzero(text[:-2] > 32)
+            following = np.searchsorted(letters, self.begin)
+            self.word = np.minimum(np.r_[letters, len(text)][following], self.end)
+            letter = text[self.word]
+        self._letter = letter
+        self._of_letter = {}
+
+    def beginning(self, word):
+        """Numbers of the lines whose first word it is."""
+        first = word[0]
+        if first not in self._of_letter:
+            self._of_letter[first] = np.flatnonzero(self._letter == first)
+        found = self._of_letter[first]
+        if len(word) > 1:
+            found = found[self.end[found] - self.word[found] >= len(word)]
+        for k, letter in enumerate(word[1:]):
+            found = found[self._all[self.word[found] + k + 1] == letter]
+        return found[self._all[self.word[found] + len(word)] <= 32]
+
+    def text(self, lines, skipped=0):
+        """uint8: the lines without comments and their first letters, and where each begins in it."""
+        begin, end = self.begin[lines], self.end[lines] + 1
+        length = end - begin
+        if not len(lines):
+            return np.zeros(0, np.uint8), lines
+        if lines[-1] - lines[0] + 1 == len(lines):
+            text = self._all[begin[0]:end[-1]].copy()
+        else:
+            first, last = lines[0], lines[-1] + 1
+            wanted = np.zeros(last - first, bool)
+            wanted[lines - first] = True
+            part = slice(self.begin[first], self.end[last - 1] + 1)
+            text = self._all[part][np.repeat(wanted, np.diff(np.r_[self.begin[first:last], part.stop]))]
+        new = np.cumsum(length) - length
+        first = new + self.word[lines] - begin
+        for k in range(skipped):
+            text[first + k] = 32
+        if (text == ord('#')).any():
+            text = np.frombuffer(without_comments(text.tobytes()), np.uint8)
+        return text, new
+
+    def words(self, line):
+        """Of one line, without its comment."""
+        return without_comments(self._all[self.begin[line]:self.end[line]].tobytes()).split()
+
+    def rest(self, line, skipped):
+        """(bytes) What follows the first letters of a line."""
+        return self._all[self.word[line] + skipped:self.end[line]].tobytes().strip()
+
+    def shown(self, line):
+        """The line in a message."""
+        return self.rest(line, 0)[:60].decode('utf-8', 'replace')
 
 
 def spliced(text, begin, end, rows, mask):
