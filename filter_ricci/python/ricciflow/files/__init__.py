@@ -11,18 +11,19 @@ from pathlib import Path
 
 from . import _gltf, _obj, _off, _pictures, _ply, _stl, _threemf
 from ._pictures import Picture, decode as read_picture, write as write_picture
-from ._shared import FileError, MeshFile, Part, Refined, remarks
+from ._shared import FileError, MeshFile, Part, PlainMesh, Refined, remarks
 
-__all__ = ['FileError', 'MeshFile', 'Part', 'Picture', 'Refined', 'read', 'read_picture', 'remarks',
+__all__ = ['FileError', 'MeshFile', 'Part', 'Picture', 'Refined', 'plain', 'read',
+           'read_picture', 'remarks',
            'write_picture']
 
 _READERS = {'.obj': _obj.ObjFile, '.ply': _ply.PlyFile, '.glb': _gltf.GltfFile, '.gltf': _gltf.GltfFile,
             '.stl': _stl.StlFile, '.off': _off.OffFile, '.3mf': _threemf.ThreeMfFile}
 _PLAIN = {'.obj': _obj.plain, '.ply': _ply.plain, '.glb': _gltf.plain, '.gltf': _gltf.plain,
           '.3mf': _threemf.plain}
-READ = tuple(_READERS)
+READS = tuple(_READERS)
 """Endings of files that are read."""
-WRITTEN = tuple(_PLAIN)
+WRITES = tuple(_PLAIN)
 """Endings of files that are written."""
 
 
@@ -35,7 +36,7 @@ def read(path):
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise FileError(f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
-                        f'or PyMeshLab; {", ".join(READ)} are')
+                        f'or PyMeshLab; {", ".join(READS)} are')
     try:
         return reader(path)
     except FileNotFoundError:
@@ -44,13 +45,18 @@ def read(path):
         raise FileError(f'{path} cannot be read: {error.strerror}') from error
 
 
+def plain(vertices, faces, name='mesh'):
+    """A MeshFile of arrays (V, 3) and (F, 3), which any format may be saved from."""
+    return PlainMesh(name, vertices, faces)
+
+
 def _converted(_, path, mesh):
     """A PlainMesh as a file of the path's format, without coordinates, with the same triangles."""
-    plain = _PLAIN.get(path.suffix.lower())
-    if plain is None:
+    write = _PLAIN.get(path.suffix.lower())
+    if write is None:
         raise FileError(f'{path.name}: files that end with {path.suffix or "nothing"} are not written; '
-                        f'{", ".join(WRITTEN)} are')
-    target = _READERS[path.suffix.lower()](path, plain(mesh))
+                        f'{", ".join(WRITES)} are')
+    target = _READERS[path.suffix.lower()](path, write(mesh))
     target.messages = []
     target._polygons, target.diagonals = mesh._polygons, mesh.diagonals
     if mesh._polygons is not None:

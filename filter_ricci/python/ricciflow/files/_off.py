@@ -16,7 +16,7 @@ class OffFile(MeshFile):
     def __init__(self, path, data=None):
         super().__init__(path)
         data = self.path.read_bytes() if data is None else data
-        data = without_comments(data.replace(b'\r\n', b' \n'))
+        data = without_comments(data)
         head = _HEAD.match(data.lstrip())
         if head:
             if head[4] or head[5] or head[6]:
@@ -59,6 +59,9 @@ class OffFile(MeshFile):
             values = numbers(content)
             if len(values) != count.sum():
                 self._fail('a face has a word that is no number')
+        if faces and count.min() == count.max() == 4 and (values[::4] == 3).all():
+            self.set_polygons(values.reshape(-1, 4)[:, 1:])
+            return True
         begin = np.cumsum(count) - count
         corners = values[begin].astype(np.int64)
         if faces and not ((corners >= 0) & (corners < count)).all():

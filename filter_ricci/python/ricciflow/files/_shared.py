@@ -41,14 +41,18 @@ class Part:
 class Refined:
     """Triangles that take the place of those of the file (common refinement).
 
-    vertices (W, 3); faces (N, 3) index them; origin (N,) the triangle of the file in which each lies;
-    weights (N, 3, 3) the barycentric coordinates in it of each corner. Vertices that lie in the file
-    keep their number and place.
+    faces (N, 3) index vertices (W, 3), of which those of the file come first; origin (N,) is the triangle
+    of the file in which each lies; weights (N, 3, 3) are the barycentric coordinates in it of each corner,
+    which say where the new vertices are.
     """
     vertices: np.ndarray
     faces: np.ndarray
     origin: np.ndarray
     weights: np.ndarray
+
+    def __post_init__(self):
+        self.faces, self.origin = np.asarray(self.faces), np.asarray(self.origin)
+        self.weights = np.asarray(self.weights, np.float64)
 
 
 class MeshFile:
@@ -130,7 +134,16 @@ class MeshFile:
                                          slice(0, len(self.vertices)))]
         self.messages += remarks(self.vertices, self.faces)
 
-    # For the drawing of pictures
+    # What a run needs besides
+
+    def sized_vertices(self):
+        """(V, 3) vertices, each part of the size that it has in the scene, for texels by its area."""
+        if all(part.scale == 1 for part in self.parts):
+            return self.vertices
+        sized = self.vertices.copy()
+        for part in self.parts:
+            sized[part.vertices] *= part.scale
+        return sized
 
     def corner_colours(self):
         """(F, 3, 4) float32, or None: what faces without a picture show."""
@@ -174,7 +187,7 @@ class MeshFile:
         """
         path = Path(path)
         if refined is not None and not isinstance(refined, Refined):
-            refined = Refined(*(np.asarray(a) for a in refined))
+            refined = Refined(*refined)
         uv = np.asarray(uv, np.float64)
         faces = self.faces if refined is None else refined.faces
         if uv.shape != (len(faces), 3, 2):
@@ -201,9 +214,18 @@ class MeshFile:
 
 
 class PlainMesh(MeshFile):
-    """Arrays on their way to another format: vertices, polygons, colours, normals."""
+    """Arrays that are to be a file; vertices (V, 3), faces (F, 3)."""
 
     colours = normals = None  # (F, 3, 4) and (F, 3, 3)
+
+    def __init__(self, path, vertices=None, faces=None):
+        super().__init__(path)
+        if vertices is not None:
+            self.vertices = np.asarray(vertices, np.float64)
+            self.set_polygons(np.asarray(faces))
+
+    def _same_format(self, path):
+        return False
 
     def corner_colours(self):
         return self.colours
@@ -220,7 +242,8 @@ def placed(mesh, uv, refined, shows_picture):
         messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format')
     vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     if refined is not None:
-        vertices, faces, origin = refined.vertices, refined.faces, refined.origin
+        faces, points, _ = _numbered(mesh, refined)
+        vertices, origin = np.concatenate([vertices, points]), refined.origin
         colours, normals = (None if a is None else mixed(a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]),
                                                          refined.weights.reshape(-1, 3)).reshape(-1, *a.shape[1:])
                             for a in (colours, normals))
@@ -464,14 +487,17 @@ def rewritten(mesh, uv, refined):
 
 
 def _numbered(mesh, refined):
-    """Corners of a refinement by vertices of the file where they are these; others are new."""
+    """Corners of a refinement by vertices of the file where they are these; where the others are, which are
+    new, and a triangle and corner of the refinement there."""
     at_corner = refined.weights == 1
     old = at_corner.any(2)
     number = np.take_along_axis(mesh.faces[refined.origin], at_corner.argmax(2), 1).astype(np.int64)
-    new, where, index = np.unique(refined.faces[~old], return_index=True, return_inverse=True)
+    _, where, index = np.unique(refined.faces[~old], return_index=True, return_inverse=True)
     number[~old] = len(mesh.vertices) + index.ravel()
-    samples = np.argwhere(~old)[where]
-    return number, np.asarray(refined.vertices, np.float64)[new], samples.reshape(-1, 2)
+    samples = np.argwhere(~old)[where].reshape(-1, 2)
+    t, k = samples.T
+    points = mixed(mesh.vertices[mesh.faces[refined.origin[t]]], refined.weights[t, k])
+    return number, points, samples
 
 
 def mixed(values, weights):
