@@ -58,9 +58,8 @@ def _converted(_, path, mesh):
                         f'{", ".join(WRITES)} are')
     target = _READERS[path.suffix.lower()](path, write(mesh))
     target.messages = []
-    target._polygons, target.diagonals = mesh._polygons, mesh.diagonals
-    if mesh._polygons is not None:
-        target.faces = mesh.faces
+    if mesh._polygons is not None and path.suffix.lower() in ('.obj', '.ply'):
+        target._polygons, target.diagonals, target.faces = mesh._polygons, mesh.diagonals, mesh.faces
     return target
 
 

@@ -317,6 +317,7 @@ class GltfFile(MeshFile):
                 name, source = unquote(uri), beside(self.path.parent, unquote(uri))
             self.pictures.append(_pictures.Picture(name, source))
 
+    @_guarded
     def corner_normals(self):
         result = np.full((len(self.faces), 3, 3), np.nan, np.float32)
         for primitive, p in zip(self._primitives, self._used()):
@@ -660,14 +661,16 @@ def _distinct(corners, uv):
 
 def plain(mesh):
     """(bytes) A GLB of the mesh without texture coordinates, all parts in one primitive."""
-    colours = mesh.corner_colours()
-    normals = mesh.corner_normals()
-    columns = [mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4').view(np.uint32).reshape(-1, 3)]
+    colours, normals = mesh.corner_colours(), mesh.corner_normals()
+    with np.errstate(over='ignore'):
+        points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
+    if not np.isfinite(points).all():
+        raise FileError(f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only')
     keys = [mesh.faces.reshape(-1, 1).astype(np.uint32)]
-    entries = [('POSITION', 'VEC3', columns[0].view('<f4'))]
+    entries = [('POSITION', 'VEC3', points)]
     if normals is not None:
         length = np.linalg.norm(normals, axis=2, keepdims=True)
-        if np.isfinite(length).all() and (length > 0).all():
+        if (length > 0).all() and np.isfinite(length).all():
             entries.append(('NORMAL', 'VEC3', (normals / length).reshape(-1, 3).astype('<f4')))
     if colours is not None:
         entries.append(('COLOR_0', 'VEC4', srgb_to_linear(colours).reshape(-1, 4).astype('<f4')))

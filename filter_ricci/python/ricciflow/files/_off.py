@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from ._shared import FileError, Lines, MeshFile, numbers, without_comments, words_of_lines
+from ._shared import FileError, Lines, MeshFile, numbers, whole, without_comments, words_of_lines
 
 _HEAD = re.compile(rb'(ST)?(C)?(N)?(4)?(n)?OFF(\s+BINARY)?')
 
@@ -46,7 +46,7 @@ class OffFile(MeshFile):
         values = numbers(text.tobytes())
         if vertices and (len(values) % vertices or len(values) < 3 * vertices):
             return False
-        values = values.reshape(vertices, -1)
+        values = values.reshape(vertices, len(values) // max(vertices, 1))
         self.vertices = np.ascontiguousarray(values[:, :3])
         colours = values[:, 3 + normals:7 + normals]
         if colours.shape[1] >= 3:
@@ -63,12 +63,12 @@ class OffFile(MeshFile):
             self.set_polygons(values.reshape(-1, 4)[:, 1:])
             return True
         begin = np.cumsum(count) - count
-        corners = values[begin].astype(np.int64)
+        corners = whole(values[begin])
         if faces and not ((corners >= 0) & (corners < count)).all():
             return False
         starts = np.r_[0, np.cumsum(corners)]
         place = np.repeat(begin + 1 - starts[:-1], corners) + np.arange(starts[-1])
-        self.set_polygons(values[place].astype(np.int64), starts)
+        self.set_polygons(values[place], starts)
         rest = count - corners - 1
         if faces and ((rest == 3) | (rest == 4)).all() and rest.min() == rest.max():
             extra = values[(begin + 1 + corners)[:, None] + np.arange(rest[0])]
@@ -90,8 +90,7 @@ class OffFile(MeshFile):
             corners += rest[at + 1:at + 1 + count]
             starts.append(len(corners))
             at += 1 + count
-        with np.errstate(invalid='ignore'):
-            self.set_polygons(np.nan_to_num(np.array(corners), nan=-1).astype(np.int64), np.array(starts))
+        self.set_polygons(np.array(corners), np.array(starts))
 
 
 def _colours(values):

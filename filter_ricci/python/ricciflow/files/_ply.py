@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _pictures
 from ._shared import (FileError, MeshFile, beside, copy_beside, mixed, numbers, relative, rewritten,
-                      words_of_lines, write_file)
+                      whole, words_of_lines, write_file)
 
 _TYPES = {'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4',
           'float': 'f4', 'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2',
@@ -196,7 +196,7 @@ class PlyFile(MeshFile):
                 table, at, good = values.reshape(n, width), 0, True
                 for name, (t, l) in kinds:
                     if l is None:
-                        element.columns[name] = table[:, at].astype(t) if t != 'f8' else table[:, at]
+                        element.columns[name] = _typed(table[:, at], t)
                         at += 1
                     else:
                         k = int(table[0, at])
@@ -232,14 +232,14 @@ class PlyFile(MeshFile):
             if not ok.all():
                 break
             if l is None:
-                element.columns[name] = values[place].astype(t)
+                element.columns[name] = _typed(values[place], t)
                 place = place + 1
             else:
                 length = values[place]
                 if not ((length >= 0) & (length <= end - place - 1)).all():
                     place = None
                     break
-                length = length.astype(np.int64)
+                length = whole(length)
                 element.columns[name] = length, values[_spread(place + 1, length, 1)]
                 place = place + 1 + length
         if place is None or not np.array_equal(place, end):
@@ -281,11 +281,11 @@ class PlyFile(MeshFile):
         if name is None:
             self._fail('the strips have no vertex_indices')
         _, values = element.columns[name]
-        values = np.ravel(values).astype(np.int64)
+        values = whole(np.ravel(values))
         counts, _ = element.columns[name]
         counts = np.broadcast_to(counts, element.count)
         ends = np.zeros(len(values), bool)
-        ends[np.cumsum(counts) - 1] = True
+        ends[np.cumsum(counts)[counts > 0] - 1] = True
         strip = np.r_[0, np.cumsum(ends | (values < 0))[:-1]]
         begin = np.flatnonzero(np.r_[True, (strip[1:] != strip[:-1])])
         place = np.arange(len(values)) - begin[np.searchsorted(begin, np.arange(len(values)), 'right') - 1]
@@ -335,7 +335,7 @@ class PlyFile(MeshFile):
         self.uv = self._coordinates(vertex, face)
         if self.uv is not None and names:
             number = face.columns['texnumber'] if face.types.get('texnumber', ('', 1))[1] is None else 0
-            number = np.broadcast_to(number, face.count).astype(np.int64)[self.polygon]
+            number = whole(np.broadcast_to(number, face.count))[self.polygon]
             known = (number >= 0) & (number < len(names)) & ~np.isnan(self.uv).any((1, 2))
             self.uv_picture = np.where(known, number, -1).astype(np.int32)
         return None
@@ -520,6 +520,11 @@ class PlyFile(MeshFile):
         return b''.join(rows)
 
 
+def _typed(values, kind):
+    with np.errstate(over='ignore'):
+        return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
+
+
 def _spread(begin, counts, size):
     """Where the values of lists lie, which begin at `begin`."""
     total = int(counts.sum())
@@ -546,7 +551,8 @@ def _colours(element):
 
 def plain(mesh):
     """(bytes) A binary PLY of the mesh without texture coordinates."""
-    single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
+    with np.errstate(over='ignore'):
+        single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
     kind, word = ('<f4', 'float') if single else ('<f8', 'double')
     fields, header = [(p, kind) for p in 'xyz'], [f'property {word} {p}' for p in 'xyz']
     if mesh.vertex_colours is not None:

@@ -109,9 +109,7 @@ class MeshFile:
 
         Triangles come as (F, 3) without `starts`.
         """
-        if corner_vertices.dtype.itemsize > 4 or corner_vertices.dtype.kind != 'i':
-            corner_vertices = np.clip(corner_vertices, -1, np.iinfo(np.int32).max)
-        corner_vertices = corner_vertices.astype(np.int32, order='C')
+        corner_vertices = np.ascontiguousarray(whole(corner_vertices, np.int32))
         if corner_vertices.size and (corner_vertices.min() < 0 or corner_vertices.max() >= len(self.vertices)):
             flat = corner_vertices.ravel()
             bad = (flat < 0) | (flat >= len(self.vertices))
@@ -664,6 +662,17 @@ def digits(values, lead=b''):
 def table(form, values):
     """Lines of text, each `form` % a row of `values`."""
     return (form * len(values) % tuple(values.ravel().tolist())).encode()
+
+
+def whole(values, kind=np.int64):
+    """Numbers as whole ones of a kind: at its ends what is beyond them, -1 or its largest what is none."""
+    values, ends = np.asarray(values), np.iinfo(kind)
+    if values.dtype.kind == 'f':
+        none = -1 if ends.min < 0 else ends.max
+        values = np.where(np.isfinite(values), np.clip(values, ends.min, ends.max - (ends.max >> 53)), none)
+    elif values.dtype.itemsize > ends.bits // 8 or values.dtype.kind != np.dtype(kind).kind:
+        values = np.clip(values, ends.min, ends.max)
+    return values.astype(kind)
 
 
 # Files
