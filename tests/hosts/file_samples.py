@@ -82,7 +82,7 @@ v 1 1 5 1 1 1
 v 1 2 5 1 1 1
 v 0 2 5 1 1 1
 f -6//1 -5//1 -4//1 -3//1 -2//1 -1//1
-l 1 2 3
+l 1/1 2/2 3
 p 1
 """.replace(b"\n", b"\r\n")
 OBJ_TRIANGLES = 2 * 5 + 2 + 4
@@ -90,17 +90,24 @@ MTL = (b"newmtl red\nKd 0.8 0.1 0.1\nd 0.5\nmap_Bump bump.png\nnewmtl picture\nK
        b"map_Kd -s 1 1 1 -o 0.5 0 a b.png\n")
 
 
-def ply(order, polygons=None, vertices=CUBE, coordinates=False):
-    """(bytes) A PLY with properties of all kinds before, between and after; order None is ascii."""
+def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None):
+    """(bytes) A PLY with properties of all kinds; order None is ascii. Texture coordinates of each polygon, (n, 2),
+    lie before the last property (coordinates) or after it (last); True: any."""
     polygons = list(QUADS) + [QUADS[0][[0, 1, 2]]] if polygons is None else polygons
+    if coordinates is True:
+        coordinates = [np.arange(2 * len(p)) / 16 for p in polygons]
+
+    def listed(uv):
+        return [("u1", np.size(uv)), *[("f4", x) for x in np.ravel(uv)]]
     header = ["ply", "format " + {None: "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order] + " 1.0",
               "comment made here", "comment TextureFile a b.png", "obj_info an info",
               f"element vertex {len(vertices)}", "property float nx", "property double x", "property float y",
               "property float z", "property uchar red", "property uchar green", "property uchar blue",
               "property list uchar short extra", f"element face {len(polygons)}", "property float quality",
               "property list uchar int vertex_indices"]
-    header += ["property list uchar float texcoord"] * coordinates
-    header += ["property int texnumber", "element edge 2", "property int vertex1", "property int vertex2",
+    header += ["property list uchar float texcoord"] * (coordinates is not None) + ["property int texnumber"]
+    header += ["property list uchar float texcoord"] * (last is not None)
+    header += ["element edge 2", "property int vertex1", "property int vertex2",
                "end_header"]
     rows = []
     for i, p in enumerate(vertices):
@@ -108,9 +115,8 @@ def ply(order, polygons=None, vertices=CUBE, coordinates=False):
                      ("u1", i % 3), *[("i2", -k) for k in range(i % 3)]])
     for i, polygon in enumerate(polygons):
         row = [("f4", i / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
-        if coordinates:
-            row += [("u1", 2 * len(polygon)), *[("f4", k / 16) for k in range(2 * len(polygon))]]
-        rows.append(row + [("i4", 0)])
+        row += (listed(coordinates[i]) if coordinates is not None else []) + [("i4", 0)]
+        rows.append(row + (listed(last[i]) if last is not None else []))
     rows += [[("i4", 0), ("i4", 1)], [("i4", 2), ("i4", 3)]]
     if order is None:
         body = "".join(" ".join(f"{v:.9g}" for _, v in row) + "\n" for row in rows).encode()
@@ -199,10 +205,7 @@ def rich():
                         "JOINTS_0": out.accessor(joints), "WEIGHTS_0": out.accessor(weights),
                         "_TEMP": out.accessor(random.random(n).astype("f4"))},
          "targets": [{"POSITION": out.accessor(random.random((n, 3)).astype("f4"), bounds=True)}],
-         "indices": out.accessor(TRIANGLES.ravel().astype("u2")), "material": 0, "extras": {"b": 2}},
-        {"attributes": {"POSITION": out.accessor(points + 3, bounds=True)}, "mode": 1, "material": 0},
-        {"attributes": {"POSITION": out.accessor((points + 5)[TRIANGLES.ravel()], bounds=True)}, "material": 1},
-        name="ball", weights=[0.5])
+         "indices": out.accessor(TRIANGLES.ravel().astype("u2")), "material": 0, "extras": {"b": 2}}, name="ball", weights=[0.5])
     strip = out.accessor(np.array([0, 1, 2, 3, 6, 7, 4, 5], "u1"))
     fan = out.accessor(np.array([0, 1, 3, 2, 6, 4], "u4"))
     position = out.accessor(points, bounds=True)
@@ -210,7 +213,10 @@ def rich():
     out.json["accessors"][sparse].update(sparse={
         "count": 1, "indices": {"bufferView": out.view(bytes([7])), "componentType": 5121},
         "values": {"bufferView": out.view(np.array([2, 2, 2], "f4").tobytes())}}, max=[2, 2, 2])
-    other = out.mesh({"attributes": {"POSITION": position}, "indices": strip, "mode": 5},
+    other = out.mesh({"attributes": {"POSITION": out.accessor(points + 1, bounds=True)}, "mode": 1, "material": 1},
+                     {"attributes": {"POSITION": out.accessor((points + 1)[TRIANGLES.ravel()], bounds=True)},
+                      "material": 1},
+                     {"attributes": {"POSITION": position}, "indices": strip, "mode": 5},
                      {"attributes": {"POSITION": position}, "indices": fan, "mode": 6},
                      {"attributes": {"POSITION": sparse}, "indices": out.accessor(TRIANGLES.ravel().astype("u4"))},
                      name="strips")

@@ -69,8 +69,8 @@ class ObjFile(MeshFile):
         rows = self._rows(self._v, 1, 3, 'vertex')
         self.vertices = np.ascontiguousarray(rows[:, :3])
         if rows.shape[1] >= 6 and not np.isnan(rows[:, 3:6]).all():
-            colours = np.where(np.isnan(rows[:, 3:6]), 1, rows[:, 3:6])
-            colours = colours / 255 if colours.max() > 1 else colours
+            colours = np.where(np.isfinite(rows[:, 3:6]), rows[:, 3:6], 1)
+            colours = np.clip(colours / 255 if colours.max() > 1 else colours, 0, 1)
             self.vertex_colours = np.c_[colours, np.ones(len(rows))].astype(np.float32)
 
     def _read_faces(self):
@@ -96,6 +96,7 @@ class ObjFile(MeshFile):
         if len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum())):
             self._complain_of_face()
         self._slashes = slashes
+        self._relative = bool(len(values)) and int(values.min()) < 0
         texture = None
         if slashes is not None:
             if slashes.min() == slashes.max():
@@ -216,14 +217,15 @@ class ObjFile(MeshFile):
         if texture is not None:
             gone.append(np.array([line for line, _ in self._libraries], int))
         gone = np.concatenate(gone)
+        numbers_of_lines = np.array(self._numbers_of_polylines(), int).reshape(-1, 2)
         at, end, plain = self._second_numbers()
         rows, mask = digits(corner_vt, b'/')
         mask[~plain, 0] = False
-        begin = np.r_[at[stays], self._lines.begin[gone]]
-        end = np.r_[end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data))]
+        begin = np.r_[at[stays], self._lines.begin[gone], numbers_of_lines[:, 0]]
+        end = np.r_[end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]]
         order = np.argsort(begin, kind='stable')
-        rows = np.r_[rows[stays], np.zeros((len(gone), rows.shape[1]), np.uint8)][order]
-        mask = np.r_[mask[stays], np.zeros((len(gone), rows.shape[1]), bool)][order]
+        rows = np.r_[rows[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), np.uint8)][order]
+        mask = np.r_[mask[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), bool)][order]
         written, moved = spliced(np.frombuffer(self._data, np.uint8), begin[order], end[order], rows, mask)
 
         end_line = b'\r\n' if b'\r\n' in self._data[:10000] else b'\n'
@@ -244,13 +246,24 @@ class ObjFile(MeshFile):
         else:
             messages += self._copy_materials(folder)
         pieces = [(int(self._lines.begin[line]), pieces[line] + b'\n') for line in torn_lines]
+        # New vertices must not change the numbers of others.
+        late = self._relative or any(len(k) and k[-1] > self._f[0] for k in (self._v, self._vn)) if vertices else False
+        tail = b''.join(vertices) if late else b''
+        if tail and not self._data.endswith(b'\n'):
+            tail = b'\n' + tail
         out, done = [], 0
-        for place, content in [(first, b''.join(vertices) + head + materials)] + pieces:
+        for place, content in [(first, (b'' if late else b''.join(vertices)) + head + materials)] + pieces:
             out += [written[done:moved(place)], content.replace(b'\n', end_line)]
             done = moved(place)
-        out.append(written[done:])
+        out += [written[done:], tail.replace(b'\n', end_line)]
         write_file(path, b''.join(out))
         return messages
+
+    def _numbers_of_polylines(self):
+        """(begin, end) of what lines `l` say of the old coordinates, which are no more."""
+        return [(self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
+                for line in self._lines.beginning(b'l')
+                for match in re.finditer(rb'/[^\s/]*', self._data[self._lines.begin[line]:self._lines.end[line]])]
 
     def _second_numbers(self):
         """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
@@ -283,20 +296,15 @@ class ObjFile(MeshFile):
                 local = self.corners[new.origin[t]] - self.starts[p]
                 exact = weight.max() == 1
                 word = words[local[weight.argmax()]]
-                if exact:
-                    vertex = word[0]
-                    if int(vertex) < 0 and len(new.points):
-                        vertex = b'%d' % (new.vertices[t, k] + 1)
-                    third = word[2] if len(word) > 2 else None
-                else:
-                    vertex, third = b'%d' % (new.vertices[t, k] + 1), None
-                if has_normals and (not exact or int(third) < 0):
+                vertex, third = b'%d' % (new.vertices[t, k] + 1), word[2] if len(word) > 2 else None
+                if has_normals:
                     index = [int(words[c][2]) for c in local]
                     index = [i - 1 if i > 0 else seen + i for i in index]
-                    if max(index) < len(given) and min(index) >= 0:
+                    if exact or max(index) >= len(given) or min(index) < 0:
+                        third = b'%d' % (index[weight.argmax()] + 1)
+                    else:
                         normal = mixed(given[index][None], weight[None])[0]
-                        length = np.linalg.norm(normal)
-                        normals.append(normal / length if length > 0 and not exact else normal)
+                        normals.append(normal / (np.linalg.norm(normal) or 1))
                         third = b'%d' % (normal_count + len(normals))
                 line.append(b'%s/%d' % (vertex, vt[t, k]) + (b'/' + third if third else b''))
             lines.append(b'f ' + b' '.join(line))
@@ -326,16 +334,19 @@ class ObjFile(MeshFile):
         sources = [f.read_bytes() for _, found in self._libraries for _, f in found]
         picture = relative(texture, folder).encode()
         shows = b'Kd 1 1 1\nmap_Kd %s\n' % picture
-        defined = set()
+        defined, white = set(), True
         for line in b'\n'.join(sources).splitlines():
             word = (line.split() or [b''])[0].lower()
             if word == b'newmtl':
-                defined.add(line.split(None, 1)[1].strip() if len(line.split()) > 1 else b'')
-                out.append(line + b'\n' + shows)
+                name = line.strip()[6:].strip()
+                defined.add(name)
+                # The colour of a material with a picture goes on multiplying it; others are in the new one.
+                white = name not in self._materials or self._materials[name].picture is None
+                out.append(line + b'\n' + (shows if white else shows.split(b'\n', 1)[1]))
             elif word.startswith((b'map_', b'bump', b'disp', b'decal', b'refl', b'norm')):
                 if word != b'map_kd':
                     left.add(_text(line.strip()))
-            elif word != b'kd':
+            elif not (white and word in (b'kd', b'd', b'tr')):
                 out.append(line + b'\n')
         out += [b'newmtl %s\n' % name + shows for name in names if name not in defined]
         first_used = min((line for line, _ in self._statements(b'usemtl')), default=len(self._lines.end))

@@ -182,14 +182,14 @@ class PlyFile(MeshFile):
             self._lines = np.r_[self._body, ends + 1]
             self._next = 0
         begins = self._lines[self._next:self._next + n + 1]
-        whole = any(t[0] == 'f' for _, (t, _) in kinds)
+        floats = any(t[0] == 'f' for _, (t, _) in kinds)
         if len(begins) == n + 1 and n:
             text = data[begins[0]:begins[-1]]
-            values = numbers(text, np.float64 if whole else np.int64)
+            values = numbers(text, np.float64 if floats else np.int64)
             width, at = 0, 0  # of the first row
             for _, (_, l) in kinds:
                 if l is not None and at < len(values):
-                    at += int(max(min(values[at], len(data)), 0))
+                    at += int(whole(np.clip(values[at], 0, len(data))))
                 at += 1
             width = at
             if len(values) == n * width:
@@ -228,8 +228,8 @@ class PlyFile(MeshFile):
                        f'{self._data[lines[used[bad]]:lines[used[bad] + 1]][:60].decode("latin1").strip()}')
         end = place + count
         for name, (t, l) in kinds:
-            ok = place < end
-            if not ok.all():
+            if not (place < end).all():
+                place = None
                 break
             if l is None:
                 element.columns[name] = _typed(values[place], t)
@@ -515,7 +515,7 @@ class PlyFile(MeshFile):
                 kind = element.types[name][0]
                 form = '%.9g' if kind == 'f4' else '%.17g' if kind == 'f8' else '%d'
                 row[name] = ((form % values[i]).encode() if self._order is None else
-                             values[i].astype(self._order + kind).tobytes())
+                             np.array(values[i], self._order + kind).tobytes())
             rows.append((b' ' if self._order is None else b'').join(row.values()) + end)
         return b''.join(rows)
 

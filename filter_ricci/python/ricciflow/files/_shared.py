@@ -28,13 +28,19 @@ class Part:
     @property
     def scale(self):
         """Units of the scene in one unit of the part, the largest of its places; counts for texels."""
-        return max((float(abs(np.linalg.det(m[:3, :3])) ** (1 / 3)) for m in self.matrices), default=1.0) or 1.0
+        return max((float(np.cbrt(abs(_volume(m)))) for m in self.matrices), default=1.0) or 1.0
 
     @property
     def mirrored(self):
         """Whether it is shown by mirroring places only. Its vertices are then given with -x and its
         triangles turned over, so that they and their map look as what is seen."""
-        return bool(self.matrices) and all(np.linalg.det(m[:3, :3]) < 0 for m in self.matrices)
+        return bool(self.matrices) and all(_volume(m) < 0 for m in self.matrices)
+
+
+def _volume(matrix):
+    """The signed volume that a matrix makes of a unit cube."""
+    a, b, c = matrix[:3, :3]
+    return np.cross(a, b) @ c
 
 
 @dataclass
@@ -256,7 +262,7 @@ def placed(mesh, uv, refined, shows_picture):
             used, index = np.unique(faces[mine], return_inverse=True)
             for matrix in part.matrices:
                 turn = matrix[:3, :3] * ([-1, 1, 1] if part.mirrored else [1, 1, 1])
-                order = [0, 1, 2] if np.linalg.det(turn) >= 0 else [0, 2, 1]
+                order = [0, 1, 2] if _volume(turn) >= 0 else [0, 2, 1]
                 lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
                 lists[1].append(index.reshape(-1, 3)[:, order] + count)
                 lists[2].append(uv[mine][:, order])
@@ -379,6 +385,10 @@ def _flattened(points):
     return flat / np.abs(flat).max()
 
 
+_FLAT = 1e-12
+"""Of corners in a square of side 2: what rounding makes of three on a line."""
+
+
 def _clip_ears(points):
     """(n - 2, 3) corners of the triangles of one polygon; the roundest ear goes first."""
     xy = points.tolist()
@@ -392,7 +402,7 @@ def _clip_ears(points):
         return area / sides if sides > 0 else 0.0
 
     shapes = np.array([shape(i) for i in range(n)])
-    reflex = shapes <= 0
+    reflex = shapes <= _FLAT
     alive = [True] * n
 
     def is_ear(i):  # no corner that is not convex lies in it
@@ -401,11 +411,11 @@ def _clip_ears(points):
         q = points[inside]
         within = np.ones(len(q), bool)
         for s, t in ((a, b), (b, c), (c, a)):
-            within &= (t[0] - s[0]) * (q[:, 1] - s[1]) - (t[1] - s[1]) * (q[:, 0] - s[0]) >= 0
+            within &= (t[0] - s[0]) * (q[:, 1] - s[1]) - (t[1] - s[1]) * (q[:, 0] - s[0]) >= -_FLAT
             within &= (q != s).any(1)
         return not within.any()
 
-    queue = [(-shapes[i], i) for i in range(n) if shapes[i] > 0]
+    queue = [(-shapes[i], i) for i in range(n) if shapes[i] > _FLAT]
     heapq.heapify(queue)
     waiting, triangles, moved = [], [], True
     while len(triangles) < n - 2:
@@ -428,8 +438,8 @@ def _clip_ears(points):
         after[before[i]], before[after[i]] = after[i], before[i]
         for k in (before[i], after[i]):
             shapes[k] = shape(k)
-            reflex[k] = shapes[k] <= 0
-            if shapes[k] > 0:
+            reflex[k] = shapes[k] <= _FLAT
+            if shapes[k] > _FLAT:
                 heapq.heappush(queue, (-shapes[k], k))
     return triangles
 
