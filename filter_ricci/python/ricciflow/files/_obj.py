@@ -16,6 +16,8 @@ from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, 
 _OPTIONS = {b'-blendu': 1, b'-blendv': 1, b'-boost': 1, b'-mm': 2, b'-o': 3, b'-s': 3, b'-t': 3,
             b'-texres': 1, b'-clamp': 1, b'-bm': 1, b'-imfchan': 1, b'-type': 1, b'-cc': 1}
 
+_NO_SLASH = bytes.maketrans(b'/f', b'  ')
+
 
 class ObjFile(MeshFile):
     """An OBJ. Objects and groups lie in one space and may share vertices, so that it has one part."""
@@ -75,30 +77,26 @@ class ObjFile(MeshFile):
 
     def _read_faces(self):
         lines = self._f
-        text, begin = self._lines.text(lines, 1) if len(lines) else (np.zeros(0, np.uint8), lines)
-        count = words_of_lines(text, begin)
+        text, begin = self._lines.text(lines)
+        words = np.flatnonzero(word_starts(text))
+        count = counts_between(words, begin, len(text)) - 1  # without f
         starts = np.r_[0, np.cumsum(count)]
-        joined, slashes = text, None
-        slash = text == ord('/')
+        slash, slashes = text == ord('/'), None
+        content = text.tobytes()
         if slash.any():
-            places = np.flatnonzero(slash)
-            slashes = counts_between(places, np.flatnonzero(word_starts(text)), len(text))
-            if slashes.max() > 2:
-                self._complain_of_face()
-            follows = text[places + 1]
-            if (follows == ord('/')).any() or (follows <= 32).any():  # a number is left out
-                joined = re.sub(rb'/(?=[/\s])', b'/0', text.tobytes())
-                joined = joined.replace(b'/', b' ')
-            else:
-                joined = text.copy()
-                joined[slash] = 32
-        values = numbers(joined if isinstance(joined, bytes) else joined.tobytes(), np.int64)
-        if len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum())):
+            words = np.delete(words, starts[:-1] + np.arange(len(lines)))
+            slashes = counts_between(np.flatnonzero(slash), words, len(text))
+            if (slash[:-1] & (slash[1:] | (text[1:] <= 32))).any():  # a number is left out
+                content = re.sub(rb'/(?=[/\s])', b'/0', content)
+        values = numbers(content.translate(_NO_SLASH), np.int64)
+        if (len(values) != starts[-1] + (0 if slashes is None else int(slashes.sum())) or
+                (slashes is not None and len(slashes) and slashes.max() > 2) or
+                np.count_nonzero(text == ord('f')) != len(lines)):  # which become spaces
             self._complain_of_face()
         self._slashes = slashes
         self._relative = bool(len(values)) and int(values.min()) < 0
         texture = None
-        if slashes is not None:
+        if slashes is not None and len(slashes):
             if slashes.min() == slashes.max():
                 corner, texture = values.reshape(-1, slashes[0] + 1).T[:2]
             else:
@@ -109,26 +107,40 @@ class ObjFile(MeshFile):
             corner = values
         corner = self._from_zero(corner, self._v, count)
         self.set_polygons(corner, starts)
+        self._texture = None  # number of vt at each corner, from 0, len(vt) for none
         if texture is not None and len(self._vt):
-            self._read_coordinates(texture, count)
+            index = self._from_zero(texture, self._vt, count)
+            if len(index) and (index.min() < 0 or index.max() >= len(self._vt)):
+                none = (index < 0) | (index >= len(self._vt))
+                beyond = int((none & (texture != 0)).sum())
+                if beyond:
+                    self.messages.append(f'{counted(beyond, "corner")} of faces name a texture coordinate '
+                                         'that the file does not have')
+                index[none] = len(self._vt)
+            self._texture = index
 
-    def _read_coordinates(self, texture, count):
-        points = self._rows(self._vt, 2, 1, 'texture coordinate')
-        points = np.c_[points, np.zeros(len(points))] if points.shape[1] == 1 else points[:, :2]
-        points = np.where(np.isnan(points), 0, points) if len(points) and np.isnan(points.sum()) else points
-        index = self._from_zero(texture, self._vt, count)
-        if len(index) and (index.min() < 0 or index.max() >= len(points)):
-            none = (index < 0) | (index >= len(points))
-            beyond = int((none & (texture != 0)).sum())
-            if beyond:
-                self.messages.append(f'{counted(beyond, "corner")} of faces name a texture coordinate '
-                                     'that the file does not have')
-            points = np.r_[points, [[np.nan, np.nan]]]
-            index[none] = len(points) - 1
-        uv = points[index]
-        self.uv = uv.reshape(-1, 3, 2) if self._polygons is None else uv[self.corners]
-        if np.isnan(self.uv).all():
-            self.uv = None
+    @cached_property
+    def uv(self):
+        """As in MeshFile, moved as the materials say; read when it is asked for."""
+        if self._texture is None or (self._texture == len(self._vt)).all():
+            return None
+        points = self._rows(self._vt, 2, 1, 'texture coordinate')[:, :2]
+        if np.isnan(points.sum()):
+            points = np.nan_to_num(points)
+        places = np.zeros((len(points) + 1, 2))
+        places[:-1, :points.shape[1]], places[-1] = points, np.nan
+        uv = places[self._texture]
+        uv = uv.reshape(-1, 3, 2) if self.all_triangles else uv[self.corners]
+        for triangles, material in self._moved:
+            uv[triangles] = uv[triangles] * material.scale + material.offset
+        return uv
+
+    @cached_property
+    def uv_picture(self):
+        """As in MeshFile."""
+        if self._picture is None or self.uv is None:
+            return None
+        return np.where(np.isnan(self.uv).any((1, 2)), -1, self._picture).astype(np.int32)
 
     def _from_zero(self, index, lines, count):
         """Numbers from 1, or from -1 back from their line, as numbers from 0; beyond the end: -1."""
@@ -165,7 +177,7 @@ class ObjFile(MeshFile):
                     self.messages.append(f'the material file {name} is not beside {self.path.name}')
                 else:
                     materials.update(read_materials(file))
-        self._materials = materials
+        self._materials, self._picture, self._moved = materials, None, []
         if not used or not materials:
             return
         names = [b''] + [name for _, name in used]
@@ -177,11 +189,10 @@ class ObjFile(MeshFile):
         picture = np.array([numbers_.setdefault(m.picture, len(numbers_)) if m and m.picture else -1
                             for m in known])
         self.pictures = [_pictures.Picture(name, beside(self.path.parent, name)) for name in numbers_]
-        if self.uv is not None and numbers_:
-            self.uv_picture = np.where(np.isnan(self.uv).any((1, 2)), -1, picture[current]).astype(np.int32)
-            for k, m in enumerate(known):
-                if m and m.picture and (m.scale != [1, 1] or m.offset != [0, 0]):
-                    self.uv[current == k] = self.uv[current == k] * m.scale + m.offset
+        if numbers_:
+            self._picture = picture[current]
+            self._moved = [(np.flatnonzero(current == k), m) for k, m in enumerate(known)
+                           if m and m.picture and (m.scale != [1, 1] or m.offset != [0, 0])]
 
     def corner_normals(self):
         if self._slashes is None or not (self._slashes == 2).any() or not len(self._vn):

@@ -72,6 +72,10 @@ class MeshFile:
     """Whether the format cannot share vertices between faces, or splits them for other reasons."""
     linear = False
     """Whether the format multiplies colours in linear light."""
+    uv = None
+    """(F, 3, 2) float64, NaN where a face has none; None: no face has any."""
+    uv_picture = None
+    """(F,) index in `pictures`, -1: none; None: no face has any."""
 
     def __init__(self, path):
         self.path = Path(path)
@@ -79,8 +83,6 @@ class MeshFile:
         self.faces = np.zeros((0, 3), np.int32)  # (F, 3) triangles, in the order of the file
         self._polygons = None  # starts, corners, polygon of MeshFile.starts and so on; None: all triangles
         self.diagonals = np.zeros((0, 3), bool)  # (F, 3) side k, from corner k to k + 1, is inside a polygon
-        self.uv = None  # (F, 3, 2) float64, NaN where a face has none
-        self.uv_picture = None  # (F,) index in pictures, -1: none
         self.vertex_colours = None  # (V, 4) float32
         self.face_colours = None  # (F, 4) float32
         self.material_colours = None  # (F, 4) float32
@@ -539,8 +541,11 @@ def numbers(text, dtype=np.float64):
 
 def word_starts(text):
     """(n,) bool: at the first letters of words; `text` as uint8, in which up to 32 all is space."""
-    start = text > 32
-    start[1:] &= text[:-1] <= 32
+    space = text <= 32
+    start = np.empty(len(text), bool)
+    if len(text):
+        start[0] = ~space[0]
+        np.greater(space[:-1], space[1:], out=start[1:])
     return start
 
 
@@ -574,14 +579,13 @@ class Lines:
     def __init__(self, text):
         if b'\n' not in text:
             text = text.replace(b'\r', b'\n')
-        self._all = np.frombuffer(text + b'\n\n\n', np.uint8)  # each line has an end, and two letters
-        text = self._all
-        self.end = np.flatnonzero(text[:-2] == 10)
+        text = self._all = np.frombuffer(text if text.endswith(b'\n') else text + b'\n', np.uint8)
+        self.end = np.flatnonzero(text == 10)
         self.begin = np.empty_like(self.end)
         self.begin[0], self.begin[1:] = 0, self.end[:-1] + 1
         self.word, letter = self.begin, text[self.begin]
         if ((letter <= 32) & (letter != 10)).any():
-            letters = np.flatnonzero(text[:-2] > 32)
+            letters = np.flatnonzero(text > 32)
             following = np.searchsorted(letters, self.begin)
             self.word = np.minimum(np.r_[letters, len(text)][following], self.end)
             letter = text[self.word]
@@ -607,7 +611,8 @@ class Lines:
         if not len(lines):
             return np.zeros(0, np.uint8), lines
         if lines[-1] - lines[0] + 1 == len(lines):
-            text = self._all[begin[0]:end[-1]].copy()
+            text = self._all[begin[0]:end[-1]]
+            text = text.copy() if skipped else text
         else:
             first, last = lines[0], lines[-1] + 1
             wanted = np.zeros(last - first, bool)
