@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged files for ricciflow.files: each is read and written again, or refused by FileError within ten seconds
-and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with a Python that has numpy."""
+"""Damaged files for ricciflow.files: each is read and written again, or refused by FileError, within ten
+seconds and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with a Python that has numpy."""
 
 import os
 import random
@@ -14,14 +14,40 @@ import tracemalloc
 import warnings
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "tests", "hosts"), os.path.join(ROOT, "filter_ricci", "python", "ricciflow")]
+sys.path[:0] = [
+    os.path.join(ROOT, "tests", "hosts"),
+    os.path.join(ROOT, "filter_ricci", "python", "ricciflow"),
+]
 import file_samples  # noqa: E402
 import files  # noqa: E402
 import numpy as np  # noqa: E402
 
-NUMBERS = [b"0", b"-1", b"1", b"3", b"99", b"1e999", b"nan", b"-inf", b"4294967295", b"2147483648", b"1000000000000",
-           b"99999999999999999999999", b"-9223372036854775808", b"1.5", b"", b"[]", b"null", b"{}", b'"a"', b"true"]
-WORDS = [int(2 ** k - 1).to_bytes(4, "little") for k in (0, 8, 16, 31, 32)] + [b"\0\0\xc0\x7f", b"\xff\xff\xff\xff"]
+NUMBERS = [
+    b"0",
+    b"-1",
+    b"1",
+    b"3",
+    b"99",
+    b"1e999",
+    b"nan",
+    b"-inf",
+    b"4294967295",
+    b"2147483648",
+    b"1000000000000",
+    b"99999999999999999999999",
+    b"-9223372036854775808",
+    b"1.5",
+    b"",
+    b"[]",
+    b"null",
+    b"{}",
+    b'"a"',
+    b"true",
+]
+WORDS = [int(2**k - 1).to_bytes(4, "little") for k in (0, 8, 16, 31, 32)] + [
+    b"\0\0\xc0\x7f",
+    b"\xff\xff\xff\xff",
+]
 
 
 class Hang(BaseException):
@@ -120,8 +146,11 @@ def main():
                     file.write(content)
                 import traceback
                 frames = [f for f in traceback.extract_tb(problem.__traceback__) if "files" in f.filename][-1]
-                print(f"{type(problem).__name__}: {str(problem)[:100]} at {os.path.basename(frames.filename)}:"
-                      f"{frames.lineno}, file {kept}", flush=True)
+                print(
+                    f"{type(problem).__name__}: {str(problem)[:100]} at {os.path.basename(frames.filename)}:"
+                    f"{frames.lineno}, file {kept}",
+                    flush=True,
+                )
             finally:
                 signal.alarm(0)
             counts[name, outcome] = counts.get((name, outcome), 0) + 1

@@ -35,7 +35,9 @@ def png(picture):
     head = struct.pack(">IIBBBBB", width, height, 8 * picture.dtype.itemsize, colour, 0, 0, 0)
 
     def chunk(kind, content):
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        return (
+            struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        )
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(body)) +
             chunk(b"IEND", b""))
 
@@ -91,28 +93,52 @@ MTL = (b"newmtl red\nKd 0.8 0.1 0.1\nd 0.5\nmap_Bump bump.png\nnewmtl picture\nK
 
 
 def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None):
-    """(bytes) A PLY with properties of all kinds; order None is ascii. Texture coordinates of each polygon, (n, 2),
-    lie before the last property (coordinates) or after it (last); True: any."""
+    """(bytes) A PLY with properties of all kinds; order None is ascii. Coordinates of each polygon, (n, 2), lie
+    before the last property (coordinates) or after it (last); True: any."""
     polygons = list(QUADS) + [QUADS[0][[0, 1, 2]]] if polygons is None else polygons
     if coordinates is True:
         coordinates = [np.arange(2 * len(p)) / 16 for p in polygons]
 
     def listed(uv):
         return [("u1", np.size(uv)), *[("f4", x) for x in np.ravel(uv)]]
-    header = ["ply", "format " + {None: "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order] + " 1.0",
-              "comment made here", "comment TextureFile a b.png", "obj_info an info",
-              f"element vertex {len(vertices)}", "property float nx", "property double x", "property float y",
-              "property float z", "property uchar red", "property uchar green", "property uchar blue",
-              "property list uchar short extra", f"element face {len(polygons)}", "property float quality",
-              "property list uchar int vertex_indices"]
+    header = [
+        "ply",
+        "format " + {None: "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order] + " 1.0",
+        "comment made here",
+        "comment TextureFile a b.png",
+        "obj_info an info",
+        f"element vertex {len(vertices)}",
+        "property float nx",
+        "property double x",
+        "property float y",
+        "property float z",
+        "property uchar red",
+        "property uchar green",
+        "property uchar blue",
+        "property list uchar short extra",
+        f"element face {len(polygons)}",
+        "property float quality",
+        "property list uchar int vertex_indices",
+    ]
     header += ["property list uchar float texcoord"] * (coordinates is not None) + ["property int texnumber"]
     header += ["property list uchar float texcoord"] * (last is not None)
     header += ["element edge 2", "property int vertex1", "property int vertex2",
                "end_header"]
     rows = []
     for i, p in enumerate(vertices):
-        rows.append([("f4", i / 3), ("f8", p[0]), ("f4", p[1]), ("f4", p[2]), ("u1", 255), ("u1", i), ("u1", 3),
-                     ("u1", i % 3), *[("i2", -k) for k in range(i % 3)]])
+        rows.append(
+            [
+                ("f4", i / 3),
+                ("f8", p[0]),
+                ("f4", p[1]),
+                ("f4", p[2]),
+                ("u1", 255),
+                ("u1", i),
+                ("u1", 3),
+                ("u1", i % 3),
+                *[("i2", -k) for k in range(i % 3)],
+            ]
+        )
     for i, polygon in enumerate(polygons):
         row = [("f4", i / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
         row += (listed(coordinates[i]) if coordinates is not None else []) + [("i4", 0)]
@@ -132,14 +158,23 @@ class Gltf:
                                          ("f4", 5126))}
 
     def __init__(self, **members):
-        self.json = {"asset": {"version": "2.0", "extras": {"by": "a test"}}, "scene": 0, "scenes": [{"nodes": []}],
-                     "nodes": [], "meshes": [], "bufferViews": [], "accessors": [], **members}
+        self.json = {
+            "asset": {"version": "2.0", "extras": {"by": "a test"}},
+            "scene": 0,
+            "scenes": [{"nodes": []}],
+            "nodes": [],
+            "meshes": [],
+            "bufferViews": [],
+            "accessors": [],
+            **members,
+        }
         self.body = b""
 
     def view(self, content, **members):
         self.body += bytes(-len(self.body) % 4)
-        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.body), "byteLength": len(content),
-                                         **members})
+        self.json["bufferViews"].append(
+            {"buffer": 0, "byteOffset": len(self.body), "byteLength": len(content), **members}
+        )
         self.body += content
         return len(self.json["bufferViews"]) - 1
 
@@ -174,7 +209,10 @@ class Gltf:
 
     def gltf(self, name):
         """(JSON, data) of a glTF whose data lie in a file of that name."""
-        return json.dumps({**self.json, "buffers": [{"byteLength": len(self.body), "uri": name}]}).encode(), self.body
+        return (
+            json.dumps({**self.json, "buffers": [{"byteLength": len(self.body), "uri": name}]}).encode(),
+            self.body,
+        )
 
 
 def rich():
@@ -190,22 +228,48 @@ def rich():
     image = png(noise(8, 8))
     out.json.update(
         images=[{"bufferView": out.view(image), "mimeType": "image/png", "name": "old"}],
-        textures=[{"source": 0}], samplers=[{"wrapS": 33071}],
-        materials=[{"name": "cloth", "doubleSided": True, "alphaMode": "MASK", "extras": {"a": 1},
-                    "normalTexture": {"index": 0, "scale": 0.5},
-                    "pbrMetallicRoughness": {"roughnessFactor": 0.3, "baseColorFactor": [0.5, 1, 1, 0.75],
-                                             "baseColorTexture": {"index": 0}}},
-                   {"name": "plain", "pbrMetallicRoughness": {"baseColorFactor": [20 / 255, 200 / 255, 20 / 255, 1]}}])
+        textures=[{"source": 0}],
+        samplers=[{"wrapS": 33071}],
+        materials=[
+            {
+                "name": "cloth",
+                "doubleSided": True,
+                "alphaMode": "MASK",
+                "extras": {"a": 1},
+                "normalTexture": {"index": 0, "scale": 0.5},
+                "pbrMetallicRoughness": {
+                    "roughnessFactor": 0.3,
+                    "baseColorFactor": [0.5, 1, 1, 0.75],
+                    "baseColorTexture": {"index": 0},
+                },
+            },
+            {
+                "name": "plain",
+                "pbrMetallicRoughness": {"baseColorFactor": [20 / 255, 200 / 255, 20 / 255, 1]},
+            },
+        ],
+    )
     tangents = np.c_[np.roll(normals, 1, 1), np.ones(n)].astype("f4")
     ball = out.mesh(
-        {"attributes": {"POSITION": out.accessor(points, padding=4, bounds=True),
-                        "NORMAL": out.accessor(normals.astype("f4")), "TANGENT": out.accessor(tangents),
-                        "TEXCOORD_0": out.accessor(random.integers(0, 65535, (n, 2), "u2"), normalized=True),
-                        "COLOR_0": out.accessor(random.integers(0, 255, (n, 4), "u1"), normalized=True),
-                        "JOINTS_0": out.accessor(joints), "WEIGHTS_0": out.accessor(weights),
-                        "_TEMP": out.accessor(random.random(n).astype("f4"))},
-         "targets": [{"POSITION": out.accessor(random.random((n, 3)).astype("f4"), bounds=True)}],
-         "indices": out.accessor(TRIANGLES.ravel().astype("u2")), "material": 0, "extras": {"b": 2}}, name="ball", weights=[0.5])
+        {
+            "attributes": {
+                "POSITION": out.accessor(points, padding=4, bounds=True),
+                "NORMAL": out.accessor(normals.astype("f4")),
+                "TANGENT": out.accessor(tangents),
+                "TEXCOORD_0": out.accessor(random.integers(0, 65535, (n, 2), "u2"), normalized=True),
+                "COLOR_0": out.accessor(random.integers(0, 255, (n, 4), "u1"), normalized=True),
+                "JOINTS_0": out.accessor(joints),
+                "WEIGHTS_0": out.accessor(weights),
+                "_TEMP": out.accessor(random.random(n).astype("f4")),
+            },
+            "targets": [{"POSITION": out.accessor(random.random((n, 3)).astype("f4"), bounds=True)}],
+            "indices": out.accessor(TRIANGLES.ravel().astype("u2")),
+            "material": 0,
+            "extras": {"b": 2},
+        },
+        name="ball",
+        weights=[0.5],
+    )
     strip = out.accessor(np.array([0, 1, 2, 3, 6, 7, 4, 5], "u1"))
     fan = out.accessor(np.array([0, 1, 3, 2, 6, 4], "u4"))
     position = out.accessor(points, bounds=True)
@@ -213,20 +277,28 @@ def rich():
     out.json["accessors"][sparse].update(sparse={
         "count": 1, "indices": {"bufferView": out.view(bytes([7])), "componentType": 5121},
         "values": {"bufferView": out.view(np.array([2, 2, 2], "f4").tobytes())}}, max=[2, 2, 2])
-    other = out.mesh({"attributes": {"POSITION": out.accessor(points + 1, bounds=True)}, "mode": 1, "material": 1},
-                     {"attributes": {"POSITION": out.accessor((points + 1)[TRIANGLES.ravel()], bounds=True)},
-                      "material": 1},
-                     {"attributes": {"POSITION": position}, "indices": strip, "mode": 5},
-                     {"attributes": {"POSITION": position}, "indices": fan, "mode": 6},
-                     {"attributes": {"POSITION": sparse}, "indices": out.accessor(TRIANGLES.ravel().astype("u4"))},
-                     name="strips")
+    other = out.mesh(
+        {"attributes": {"POSITION": out.accessor(points + 1, bounds=True)}, "mode": 1, "material": 1},
+        {
+            "attributes": {"POSITION": out.accessor((points + 1)[TRIANGLES.ravel()], bounds=True)},
+            "material": 1,
+        },
+        {"attributes": {"POSITION": position}, "indices": strip, "mode": 5},
+        {"attributes": {"POSITION": position}, "indices": fan, "mode": 6},
+        {"attributes": {"POSITION": sparse}, "indices": out.accessor(TRIANGLES.ravel().astype("u4"))},
+        name="strips",
+    )
     out.node(ball, name="a", skin=0)
     out.node(other, scale=[2, 2, 2])
-    mirrored = out.mesh({"attributes": {"POSITION": position}, "indices": out.accessor(TRIANGLES.ravel().astype("u1"))})
+    mirrored = out.mesh(
+        {"attributes": {"POSITION": position}, "indices": out.accessor(TRIANGLES.ravel().astype("u1"))}
+    )
     out.node(mirrored, scale=[-1, 1, 1], translation=[5, 0, 0])
     out.json["nodes"].append({"camera": 0, "name": "bone"})
     out.json["scenes"][0]["nodes"].append(3)
-    out.json["skins"] = [{"joints": [3], "inverseBindMatrices": out.accessor(np.eye(4, dtype="f4").reshape(1, 16))}]
+    out.json["skins"] = [
+        {"joints": [3], "inverseBindMatrices": out.accessor(np.eye(4, dtype="f4").reshape(1, 16))}
+    ]
     times = out.accessor(np.array([0, 1], "f4"), bounds=True)
     out.json["animations"] = [{"samplers": [{"input": times, "output": out.accessor(np.zeros((2, 3), "f4"))}],
                                "channels": [{"sampler": 0, "target": {"node": 3, "path": "translation"}}]}]
@@ -264,23 +336,39 @@ def threemf(colours=True):
     """(bytes) A 3MF of a cube, a mirrored one of twice the size, and a picture that belongs to neither."""
     vertices = "".join('<vertex x="%g" y="%g" z="%g"/>\n' % tuple(p) for p in CUBE)
     own = [' pid="1" p1="0" p2="1" p3="0"' if colours and i < 3 else "" for i in range(12)]
-    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"{p} />\n' for (a, b, c), p in zip(TRIANGLES.tolist(), own))
-    group = '<m:colorgroup id="1"><m:color color="#FF0000"/><m:color color="#00FF0080"/></m:colorgroup>' * colours
+    triangles = "".join(
+        f'<triangle v1="{a}" v2="{b}" v3="{c}"{p} />\n' for (a, b, c), p in zip(TRIANGLES.tolist(), own)
+    )
+    group = (
+        '<m:colorgroup id="1"><m:color color="#FF0000"/><m:color color="#00FF0080"/></m:colorgroup>' * colours
+    )
     mesh = f"<mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh>"
-    model = (f'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="inch" xmlns="{CORE}" xmlns:m="{MATERIALS}">\n'
-             f'<metadata name="Title">&lt;cube&gt; \u00e4</metadata><resources>{group}<object id="5" name="one">{mesh}'
-             f'</object><object id="7" name="two">{mesh}</object></resources><build><item objectid="5"/>'
-             '<item objectid="7" transform="-2 0 0 0 2 0 0 0 2 9 0 0"/></build></model>')
-    types = ('<?xml version="1.0" encoding="UTF-8"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/'
-             'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships'
-             '+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
-             '</Types>')
-    relations = ('<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/'
-                 '2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/'
-                 '3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+    model = (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="inch" xmlns="{CORE}" xmlns:m="{MATERIALS}">\n'
+        f'<metadata name="Title">&lt;cube&gt; \u00e4</metadata><resources>{group}'
+        f'<object id="5" name="one">{mesh}'
+        f'</object><object id="7" name="two">{mesh}</object></resources><build><item objectid="5"/>'
+        '<item objectid="7" transform="-2 0 0 0 2 0 0 0 2 9 0 0"/></build></model>'
+    )
+    types = (
+        '<?xml version="1.0" encoding="UTF-8"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/'
+        'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-'
+        'package.relationships'
+        '+xml"/><Default Extension="model" ContentType="application/'
+        'vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
+        '</Types>'
+    )
+    relations = (
+        '<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="'
+        'http://schemas.openxmlformats.org/package/'
+        '2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="r" Type="'
+        'http://schemas.microsoft.com/'
+        '3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+    )
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as package:
-        for name, content in (("[Content_Types].xml", types), ("_rels/.rels", relations), ("3D/3dmodel.model", model)):
+        for name, content in (("[Content_Types].xml", types), ("_rels/.rels", relations),
+                              ("3D/3dmodel.model", model)):
             package.writestr(zipfile.ZipInfo(name), content.encode())
         package.writestr(zipfile.ZipInfo("Metadata/thumbnail.png"), png(noise(2, 2)))
     return out.getvalue()
@@ -289,11 +377,27 @@ def threemf(colours=True):
 def every():
     """{name: bytes} One file of each kind."""
     text, data = rich().gltf("rich.bin")
-    strips = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-              b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
-              b"8 0 1 2 3 -1 0 2 1\n")
-    return {"all.obj": OBJ, "ascii.ply": ply(None), "little.ply": ply("<"), "big.ply": ply(">", coordinates=True),
-            "even.ply": ply("<", list(TRIANGLES), coordinates=True), "texts.ply": ply(None, coordinates=True),
-            "strips.ply": strips, "rich.glb": rich().glb(), "rich.gltf": text, "rich.bin": data, "cube.stl": stl(),
-            "text.stl": stl_text(), "cube.off": off(), "bare.off": off(False), "cube.3mf": threemf(),
-            "some.mtl": MTL, "a b.png": png(noise(4, 4))}
+    strips = (
+        b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+        b"8 0 1 2 3 -1 0 2 1\n"
+    )
+    return {
+        "all.obj": OBJ,
+        "ascii.ply": ply(None),
+        "little.ply": ply("<"),
+        "big.ply": ply(">", coordinates=True),
+        "even.ply": ply("<", list(TRIANGLES), coordinates=True),
+        "texts.ply": ply(None, coordinates=True),
+        "strips.ply": strips,
+        "rich.glb": rich().glb(),
+        "rich.gltf": text,
+        "rich.bin": data,
+        "cube.stl": stl(),
+        "text.stl": stl_text(),
+        "cube.off": off(),
+        "bare.off": off(False),
+        "cube.3mf": threemf(),
+        "some.mtl": MTL,
+        "a b.png": png(noise(4, 4)),
+    }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of meshes: what is read of them, and that all but texture coordinates stays.
-Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; Pillow and node are used where they are."""
+Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; uses Pillow and node where they are."""
 
 import glob
 import io
@@ -56,7 +56,9 @@ def centroids(mesh):
     """A refinement: each triangle divided at its middle."""
     count, n = len(mesh.faces), len(mesh.vertices)
     middle = n + np.arange(count)
-    faces = np.stack([np.c_[mesh.faces[:, k], mesh.faces[:, (k + 1) % 3], middle] for k in range(3)], 1).reshape(-1, 3)
+    faces = np.stack(
+        [np.c_[mesh.faces[:, k], mesh.faces[:, (k + 1) % 3], middle] for k in range(3)], 1
+    ).reshape(-1, 3)
     weights = np.zeros((count, 3, 3, 3))
     for k in range(3):
         weights[:, k, 0, k] = weights[:, k, 1, (k + 1) % 3] = 1
@@ -133,8 +135,9 @@ class Obj(Folder):
             self.assertEqual(kept_lines(written), kept_lines(samples.OBJ))
             again = files.read(self.folder / "out.obj")
             np.testing.assert_array_equal(again.faces, self.mesh.faces)
-            np.testing.assert_allclose(np.nan_to_num(again.uv) - [[[0.5, 0]]] * (again.uv_picture == 0)[:, None, None],
-                                       uv, atol=1e-9)
+            np.testing.assert_allclose(
+                np.nan_to_num(again.uv) - [[[0.5, 0]]] * (again.uv_picture == 0)[:, None, None], uv, atol=1e-9
+            )
 
     def test_only_a_torn_polygon_is_divided(self):
         uv = by_vertex(self.mesh)
@@ -178,7 +181,8 @@ class Obj(Folder):
             mesh.pictures[0].read()
 
     def test_a_wrong_line_is_named(self):
-        for line, what in ((b"f 1 2 x", "line 3 is no face: f 1 2 x"), (b"v 1 2", "line 3 is no vertex: v 1 2"),
+        for line, what in ((b"f 1 2 x", "line 3 is no face: f 1 2 x"),
+                           (b"v 1 2", "line 3 is no vertex: v 1 2"),
                            (b"f 1/2/3/4 2 1", "line 3 is no face"), (b"v 1 2 3z", "line 3 is no vertex")):
             path = self.file("wrong.obj", b"v 0 0 0\nv 1 0 0\n" + line + b"\nf 1 2 1\n")
             with self.assertRaisesRegex(files.FileError, what):
@@ -215,7 +219,9 @@ class Concave(unittest.TestCase):
 
     def test_comb(self):
         teeth = 20
-        top = [p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))]
+        top = [
+            p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))
+        ]
         corners = [(0, 0), (2 * teeth, 0), *top]
         self.check(corners, shoelace(corners))
 
@@ -230,7 +236,8 @@ class Concave(unittest.TestCase):
         self.check([(0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (2, 1), (1, 1), (0, 1)], 3)
 
     def test_what_is_no_polygon_still_ends(self):
-        for corners in ([(0, 0)] * 7, [(0, 0), (1, 1), (1, 0), (0, 1), (2, 2)], [(i % 3, 0) for i in range(9)]):
+        for corners in ([(0, 0)] * 7, [(0, 0), (1, 1), (1, 0), (0, 1), (2, 2)],
+                        [(i % 3, 0) for i in range(9)]):
             mesh = files._shared.MeshFile("none")
             mesh.vertices = np.c_[np.array(corners, float), np.zeros(len(corners))]
             mesh.set_polygons(np.arange(len(corners)), np.array([0, len(corners)]))
@@ -299,10 +306,14 @@ class Ply(Folder):
         np.testing.assert_array_equal(mesh.faces, files.read(self.file("b.ply", content)).faces)
 
     def test_coordinates_of_vertices(self):
-        text = (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
-                b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n")
-        np.testing.assert_allclose(files.read(self.file("in.ply", text)).uv, [[[.1, .2], [.3, .4], [.5, .6]]], atol=1e-7)
+        text = (
+            b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+            b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n"
+        )
+        np.testing.assert_allclose(
+            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7
+        )
 
     def test_it_is_cut_off(self):
         for order in (None, "<", ">"):
@@ -364,8 +375,21 @@ class Attributes:
                 yield primitive, result
 
 
-OTHERS = ("nodes", "scenes", "scene", "skins", "animations", "cameras", "images", "textures", "samplers", "asset",
-          "extensionsUsed", "extensionsRequired", "extras")
+OTHERS = (
+    "nodes",
+    "scenes",
+    "scene",
+    "skins",
+    "animations",
+    "cameras",
+    "images",
+    "textures",
+    "samplers",
+    "asset",
+    "extensionsUsed",
+    "extensionsRequired",
+    "extras",
+)
 
 
 class Gltf(Folder):
@@ -375,7 +399,9 @@ class Gltf(Folder):
             if key == "images":
                 continue
             self.assertEqual(old.json.get(key), new.json.get(key), key)
-        self.assertEqual([m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]])
+        self.assertEqual(
+            [m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]]
+        )
         for (p, was), (q, now) in zip(old.corners(), new.corners(), strict=True):
             for key, rows in was.items():
                 self.assertEqual(rows, now[key], key)
@@ -440,9 +466,17 @@ class Gltf(Folder):
         own = mesh.vertices[mesh.faces[part.faces]]
         normals = np.cross(own[:, 1] - own[:, 0], own[:, 2] - own[:, 0])
         outwards = own.mean(1) - [-0.5, 0.5, 0.5]  # the cube with -x
-        self.assertEqual(np.sign((normals * outwards).sum(1)).tolist(),
-                         np.sign([n @ (m - 0.5) for n, m in zip(areas(samples.CUBE, samples.TRIANGLES),
-                                                                samples.CUBE[samples.TRIANGLES].mean(1))]).tolist())
+        self.assertEqual(
+            np.sign((normals * outwards).sum(1)).tolist(),
+            np.sign(
+                [
+                    n @ (m - 0.5)
+                    for n, m in zip(
+                        areas(samples.CUBE, samples.TRIANGLES), samples.CUBE[samples.TRIANGLES].mean(1)
+                    )
+                ]
+            ).tolist(),
+        )
         np.testing.assert_array_equal(mesh.sized_vertices()[mesh.parts[1].vertices],
                                       2 * mesh.vertices[mesh.parts[1].vertices])
 
@@ -459,7 +493,8 @@ class Gltf(Folder):
         self.assertEqual(cloth["pbrMetallicRoughness"], {
             "roughnessFactor": 0.3, "baseColorFactor": [0.5, 1, 1, 0.75], "metallicFactor": 0,
             "baseColorTexture": {"index": shown}})
-        for key, value in (("name", "cloth"), ("doubleSided", True), ("alphaMode", "MASK"), ("extras", {"a": 1})):
+        for key, value in (("name", "cloth"), ("doubleSided", True), ("alphaMode", "MASK"),
+                           ("extras", {"a": 1})):
             self.assertEqual(cloth[key], value)
         # The normal map keeps the old set, which makes room.
         self.assertEqual(cloth["normalTexture"], {"index": 0, "scale": 0.5, "texCoord": 1})
@@ -467,7 +502,9 @@ class Gltf(Folder):
         now = next(out.corners())[1]
         self.assertEqual(now[0, "TEXCOORD_1"], old[0, "TEXCOORD_0"])
         self.assertEqual(now[0, "COLOR_0"], old[0, "COLOR_0"])  # it multiplies the picture, as before
-        self.assertEqual(plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}})
+        self.assertEqual(
+            plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}}
+        )
         self.assertEqual(out.json["materials"][:2], Attributes(path).json["materials"])
         for mesh in out.json["meshes"]:
             for primitive in mesh["primitives"]:
@@ -488,7 +525,9 @@ class Gltf(Folder):
 
     def test_colours_are_linear(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
-        np.testing.assert_array_equal(np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1)))
+        np.testing.assert_array_equal(
+            np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1))
+        )
         self.assertEqual(np.rint(255 * mesh.material_colours[0]).tolist()[:3], [188, 255, 255])
 
     def test_compression_is_named(self):
@@ -514,7 +553,9 @@ class Gltf(Folder):
             np.testing.assert_allclose(mesh.uv, np.tile([uv[0], 1 - uv[1]], (1, 3, 1)), atol=1e-12)
 
     def test_quantized(self):
-        out = samples.Gltf(extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"])
+        out = samples.Gltf(
+            extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"]
+        )
         out.node(out.mesh({"attributes": {"POSITION": out.accessor(
             np.array([(0, 0, 0), (127, 0, 0), (0, -127, 0)], "i1"), padding=1, normalized=True)}}))
         mesh = files.read(self.file("in.glb", out.glb()))
@@ -531,8 +572,12 @@ class Validator(Folder):
         place = os.path.join(common.BUILD or tempfile.gettempdir(), "gltf-validator")
         if not os.path.isdir(os.path.join(place, "node_modules", "gltf-validator")):
             os.makedirs(place, exist_ok=True)
-            run = subprocess.run([npm, "install", "--no-audit", "--no-fund", "--prefix", place, "gltf-validator"],
-                                 capture_output=True, text=True, timeout=300)
+            run = subprocess.run(
+                [npm, "install", "--no-audit", "--no-fund", "--prefix", place, "gltf-validator"],
+                capture_output=True,
+                text=True,
+                timeout=300,
+            )
             if run.returncode:
                 self.skipTest("SKIPPED: npm cannot install gltf-validator")
         new = self.file("new.png", samples.png(samples.noise(2, 2)))
@@ -546,13 +591,25 @@ class Validator(Folder):
                 mesh.save(out, by_corner(mesh), texture)
                 written.append(out)
             if path.name == "rich.glb":
-                mesh.save(self.folder / "out" / "refined.glb", by_corner(mesh)[centroids(mesh)[2]], refined=centroids(mesh))
+                mesh.save(
+                    self.folder / "out" / "refined.glb",
+                    by_corner(mesh)[centroids(mesh)[2]],
+                    refined=centroids(mesh),
+                )
                 written.append(self.folder / "out" / "refined.glb")
-        script = ("const v=require('gltf-validator'),fs=require('fs');(async()=>{for(const f of process.argv.slice(1)){"
-                  "const r=await v.validateBytes(new Uint8Array(fs.readFileSync(f)));"
-                  "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()")
-        run = subprocess.run([node, "-e", script, "--", *map(str, written)], capture_output=True, text=True,
-                             env={**os.environ, "NODE_PATH": os.path.join(place, "node_modules")}, timeout=300)
+        script = (
+            "const v=require('gltf-validator'),fs=require('fs');(async()=>{"
+            "for(const f of process.argv.slice(1)){"
+            "const r=await v.validateBytes(new Uint8Array(fs.readFileSync(f)));"
+            "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()"
+        )
+        run = subprocess.run(
+            [node, "-e", script, "--", *map(str, written)],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "NODE_PATH": os.path.join(place, "node_modules")},
+            timeout=300,
+        )
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
 
 
@@ -560,7 +617,9 @@ class ThreeMf(Folder):
     def test_read(self):
         mesh = files.read(self.file("in.3mf", samples.threemf()))
         self.assertEqual(len(mesh.faces), 24)
-        self.assertEqual([(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)])
+        self.assertEqual(
+            [(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)]
+        )
         colours = np.rint(255 * mesh.corner_colours())
         self.assertEqual(colours[0].tolist(), [[255, 0, 0, 255], [0, 255, 0, 128], [255, 0, 0, 255]])
         self.assertEqual(colours[5].tolist(), [[255] * 4] * 3)
@@ -587,7 +646,8 @@ class ThreeMf(Folder):
 
 class Others(Folder):
     def test_stl(self):
-        for content in (samples.stl(), samples.stl_text(), samples.stl_text().upper().replace(b"SOLID", b"solid"),
+        for content in (samples.stl(), samples.stl_text(),
+                        samples.stl_text().upper().replace(b"SOLID", b"solid"),
                         b"solid" + samples.stl()[5:]):
             mesh = files.read(self.file("in.stl", content))
             np.testing.assert_array_equal(mesh.vertices[mesh.faces], samples.CUBE[samples.TRIANGLES])
@@ -595,7 +655,7 @@ class Others(Folder):
 
     def test_off(self):
         for content in (samples.off(), samples.off(False), samples.off().replace(b"COFF\n", b"COFF "),
-                        b"\n".join(samples.off(False).replace(b"# a comment", b"").replace(b"  0.2 0.4 0.6", b"").split())):
+                        b"\n".join(re.sub(rb"# a comment|  0.2 0.4 0.6", b"", samples.off(False)).split())):
             mesh = files.read(self.file("in.off", content))
             np.testing.assert_array_equal(mesh.faces, samples.TRIANGLES)
             np.testing.assert_array_equal(mesh.vertices, samples.CUBE)
@@ -627,7 +687,9 @@ class Others(Folder):
                         if ending not in (".glb", ".gltf") and path.suffix in (".glb", ".gltf"):
                             continue
                         if path.suffix != ".3mf" or ending == ".3mf":  # 3MF places its objects
-                            np.testing.assert_allclose(again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6)
+                            np.testing.assert_allclose(
+                                again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6
+                            )
 
     def test_a_scene_is_placed(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
@@ -649,7 +711,9 @@ class Others(Folder):
     def test_normals_and_colours_are_carried(self):
         mesh = files.read(self.file("in.ply", samples.ply("<", list(samples.TRIANGLES))))
         mesh._by_name["vertex"].types.update(ny=("f4", None), nz=("f4", None))
-        mesh._by_name["vertex"].columns.update(nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4"))
+        mesh._by_name["vertex"].columns.update(
+            nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4")
+        )
         mesh.save(self.folder / "out.glb", by_vertex(mesh))
         out = next(Attributes(self.folder / "out.glb").corners())[1]
         self.assertEqual(set(out[0, "NORMAL"]), {struct.pack("<3f", 1, 0, 0)})
@@ -662,7 +726,9 @@ class Others(Folder):
         mesh = files.plain(samples.CUBE, samples.TRIANGLES)
         for ending in files.WRITES:
             mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
-            np.testing.assert_allclose(files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6)
+            np.testing.assert_allclose(
+                files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6
+            )
 
 
 class Refined(Folder):
@@ -674,7 +740,9 @@ class Refined(Folder):
             for ending in {path.suffix, ".obj", ".glb", ".ply", ".3mf"} & set(files.WRITES):
                 with self.subTest(path=path.name, ending=ending):
                     new = self.file("new.png", samples.png(samples.noise(2, 2)))
-                    mesh.save(self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights))
+                    mesh.save(
+                        self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights)
+                    )
                     again = files.read(self.folder / f"out{ending}")
                     self.assertEqual(len(again.faces), len(faces))
                     np.testing.assert_allclose(again.uv, uv, atol=1e-6)
@@ -742,15 +810,18 @@ class NothingIsLost(Folder):
         self.assertEqual(kept_lines((self.folder / "out.obj").read_bytes()), kept_lines(text))
 
     def test_beyond_the_end(self):
-        cases = {"a.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n",
-                 "b.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 -4\n",
-                 "c.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 0\n",
-                 "d.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 99999999999999999999\n",
-                 "e.off": b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n",
-                 "f.ply": samples.ply("<", [(0, 1, 2), (0, 1, 8)]), "g.ply": samples.ply(None, [(0, 1, 2), (0, 1, -1)])}
+        cases = {
+            "a.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n",
+            "b.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 -4\n",
+            "c.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 0\n",
+            "d.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 99999999999999999999\n",
+            "e.off": b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n",
+            "f.ply": samples.ply("<", [(0, 1, 2), (0, 1, 8)]),
+            "g.ply": samples.ply(None, [(0, 1, 2), (0, 1, -1)]),
+        }
         for name, content in cases.items():
             with self.subTest(name=name), self.assertRaisesRegex(
-                    files.FileError, "1 corner of faces, first of face 2, name a vertex beyond the [38] of the file"):
+                    files.FileError, "1 corner of faces, first of face 2, name a vertex beyond the [38] of"):
                 files.read(self.file(name, content))
         with self.assertRaisesRegex(files.FileError, "first of face 2"):
             files.plain(samples.CUBE, np.array([(0, 1, 2), (0, 1, 8)]))
@@ -834,7 +905,9 @@ class Pictures(Folder):
     def test_a_jpeg_of_an_obj(self):
         Image.fromarray(np.full((8, 8, 3), (10, 200, 30), np.uint8)).save(self.folder / "j.jpg")
         self.file("m.mtl", b"newmtl a\nmap_Kd j.jpg\n")
-        mesh = files.read(self.file("in.obj", b"mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"))
+        mesh = files.read(
+            self.file("in.obj", b"mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+        )
         self.assertEqual(mesh.pictures[0].name, "j.jpg")
         self.assertLess(abs(mesh.pictures[0].read()[..., :3].astype(int) - (10, 200, 30)).max(), 4)
 
@@ -851,7 +924,8 @@ class Handed(Gltf):
         return picture[int((1 - v) * height) % height, int(u * width)].tolist()[:3]
 
     def test_appearance_of_gltf(self):
-        for name, colour in (("tt1", [0, 0, 255]), ("tt2", [0, 0, 255]), ("tt3", [255, 0, 0]), ("tt4", [255, 0, 0])):
+        blue, red = [0, 0, 255], [255, 0, 0]
+        for name, colour in (("tt1", blue), ("tt2", blue), ("tt3", red), ("tt4", red)):
             mesh = files.read(HANDED / f"{name}.glb")
             for face in range(12):
                 self.assertEqual(self.colour_at(mesh, face), colour, name)

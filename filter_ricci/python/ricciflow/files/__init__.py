@@ -35,8 +35,10 @@ def read(path):
     path = Path(path)
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
-        raise FileError(f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
-                        f'or PyMeshLab; {", ".join(READS)} are')
+        raise FileError(
+            f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
+            f'or PyMeshLab; {", ".join(READS)} are'
+        )
     try:
         return reader(path)
     except FileNotFoundError:

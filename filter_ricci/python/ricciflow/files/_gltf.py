@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""glTF 2.0 and GLB. Written again, vertices are split at the new seams and every attribute follows bit by bit.
+"""glTF 2.0 and GLB. Written again, vertices are split at the new seams; every attribute follows bit by bit.
 
 The JSON stays as it is but for primitives that get coordinates. What they used alone gives its number to
 what takes its place, so that nothing else is renumbered.
@@ -15,8 +15,8 @@ from urllib.parse import unquote
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, MeshFile, Part, beside, copy_beside, counted, linear_to_srgb, mixed, relative,
-                      remarks, srgb_to_linear, write_file)
+from ._shared import (FileError, MeshFile, Part, beside, copy_beside, counted, linear_to_srgb, mixed,
+                      relative, remarks, srgb_to_linear, write_file)
 
 _KINDS = {5120: 'i1', 5121: 'u1', 5122: '<i2', 5123: '<u2', 5125: '<u4', 5126: '<f4'}
 _WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4, 'MAT2': 4, 'MAT3': 9, 'MAT4': 16}
@@ -43,10 +43,16 @@ def _guarded(function):
 
 
 class _Primitive:
-    """Triangles of one primitive: numbers in `faces` of the file, and vertices as its accessors count them."""
+    """Triangles of one primitive: which of `faces`, and with vertices as its accessors count them."""
 
     def __init__(self, mesh, number, faces, triangles, turned):
-        self.mesh, self.number, self.faces, self.triangles, self.turned = mesh, number, faces, triangles, turned
+        self.mesh, self.number, self.faces, self.triangles, self.turned = (
+            mesh,
+            number,
+            faces,
+            triangles,
+            turned,
+        )
 
 
 class GltfFile(MeshFile):
@@ -96,8 +102,10 @@ class GltfFile(MeshFile):
         required = self.json.get('extensionsRequired', [])
         for name in required:
             if name in _COMPRESSED:
-                raise FileError(f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
-                                'read here: export it without compression')
+                raise FileError(
+                    f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
+                    'read here: export it without compression'
+                )
             if not name.startswith(_PLAIN) and name != 'KHR_materials_variants':
                 raise FileError(f'{self.path.name} needs the glTF extension {name}, which is not known here')
 
@@ -122,8 +130,10 @@ class GltfFile(MeshFile):
         view = self.json['bufferViews'][number]
         for name in view.get('extensions', {}):
             if name in _COMPRESSED:
-                raise FileError(f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
-                                'read here: export it without compression')
+                raise FileError(
+                    f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
+                    'read here: export it without compression'
+                )
         stride = view.get('byteStride', size)
         begin = view.get('byteOffset', 0) + offset
         buffer = self._buffers[view['buffer']]
@@ -153,7 +163,9 @@ class GltfFile(MeshFile):
             sparse = accessor['sparse']
             at, new = sparse['indices'], sparse['values']
             index_kind = np.dtype(_KINDS[at['componentType']])
-            index = self._view(at['bufferView'], at.get('byteOffset', 0), sparse['count'], index_kind.itemsize)
+            index = self._view(
+                at['bufferView'], at.get('byteOffset', 0), sparse['count'], index_kind.itemsize
+            )
             rows = rows.copy()
             rows[np.ascontiguousarray(index).view(index_kind).ravel()] = self._view(
                 new['bufferView'], new.get('byteOffset', 0), sparse['count'], size)
@@ -175,15 +187,19 @@ class GltfFile(MeshFile):
             if index.dtype.kind not in 'iu':
                 raise FileError(f'{self.path.name} is damaged: indices that are no whole numbers')
             if len(index) and int(index.max()) >= count:
-                raise FileError(f'{self.path.name}: {counted(int((index >= count).sum()), "corner")} of faces name a '
-                                f'vertex beyond the {count} of the primitive')
+                raise FileError(
+                    f'{self.path.name}: {counted(int((index >= count).sum()), "corner")} of faces name a '
+                    f'vertex beyond the {count} of the primitive'
+                )
             index = index.view(np.int32) if index.dtype == np.uint32 else index.astype(np.int32)
         else:
             index = np.arange(count, dtype=np.int32)
         mode = primitive.get('mode', 4)
         if mode == 4:
             if len(index) % 3:
-                self.messages.append(f'{len(index) % 3} indices after the last triangle of a primitive left out')
+                self.messages.append(
+                    f'{len(index) % 3} indices after the last triangle of a primitive left out'
+                )
             return index[:len(index) // 3 * 3].reshape(-1, 3)
         if len(index) < 3:
             return np.zeros((0, 3), np.int32)
@@ -255,7 +271,9 @@ class GltfFile(MeshFile):
         self.diagonals = np.broadcast_to(np.False_, self.faces.shape)
         self.messages += remarks(self.vertices, self.faces)
         if any(u is not None for u in uv):
-            self.uv = np.concatenate([np.full((len(p), 3, 2), np.nan) if u is None else u for u, p in zip(uv, picture)])
+            self.uv = np.concatenate(
+                [np.full((len(p), 3, 2), np.nan) if u is None else u for u, p in zip(uv, picture)]
+            )
             self.uv_picture = np.concatenate(picture)
         if any(p.get('material') is not None for p in self._used()):
             self.material_colours = linear_to_srgb(np.concatenate(materials))
@@ -275,7 +293,7 @@ class GltfFile(MeshFile):
         return colours
 
     def _look(self, primitive):
-        """Old coordinates (vertices, 2) or None, number of the picture or -1, factor (linear) of a primitive."""
+        """Of a primitive: old coordinates (vertices, 2) or None, its picture or -1, its factor (linear)."""
         material = self.json['materials'][primitive['material']] if 'material' in primitive else {}
         pbr = material.get('pbrMetallicRoughness', {})
         texture, factor = pbr.get('baseColorTexture'), pbr.get('baseColorFactor', [1, 1, 1, 1])
@@ -301,7 +319,9 @@ class GltfFile(MeshFile):
         entry = self.json['textures'][texture['index']]
         source = entry.get('source')
         for name in ('EXT_texture_webp', 'EXT_texture_avif', 'KHR_texture_basisu'):
-            source = entry.get('extensions', {}).get(name, {}).get('source', source) if source is None else source
+            source = (
+                entry.get('extensions', {}).get(name, {}).get('source', source) if source is None else source
+            )
         return np.c_[uv[:, 0], 1 - uv[:, 1]], -1 if source is None else source, factor
 
     def _read_pictures(self):
@@ -364,7 +384,9 @@ class GltfFile(MeshFile):
                 if moved is not None:
                     attributes[f'TEXCOORD_{moved}'] = attributes['TEXCOORD_0']
             attributes.pop(f'TEXCOORD_{number}', None)
-            flipped = np.stack([coordinates[..., 0], 1 - coordinates[..., 1]], -1).astype('<f4').reshape(-1, 2)
+            flipped = (
+                np.stack([coordinates[..., 0], 1 - coordinates[..., 1]], -1).astype('<f4').reshape(-1, 2)
+            )
             out.split(new, triangles, weights, flipped + np.float32(0), number)
         out.write(path)
         return messages + copy_beside(out.files, self.path.parent, path.parent)
@@ -375,8 +397,10 @@ class GltfFile(MeshFile):
         if uv_set is not None:
             missing = [n for n in range(uv_set) if f'TEXCOORD_{n}' not in present]
             if missing or uv_set < 0:
-                raise FileError(f'{self.path.name}: TEXCOORD_{uv_set} cannot be written, since a primitive has no '
-                                f'TEXCOORD_{missing[0] if missing else 0}')
+                raise FileError(
+                    f'{self.path.name}: TEXCOORD_{uv_set} cannot be written, since a primitive has no '
+                    f'TEXCOORD_{missing[0] if missing else 0}'
+                )
             return int(uv_set), None
         if material is not None or 'TEXCOORD_0' not in present:
             return 0, None
@@ -396,7 +420,9 @@ class GltfFile(MeshFile):
         """
         content = Path(texture).read_bytes()
         image = {'name': Path(texture).stem}
-        kind = 'image/png' if content[:4] == b'\x89PNG' else 'image/jpeg' if content[:2] == b'\xff\xd8' else None
+        kind = (
+            'image/png' if content[:4] == b'\x89PNG' else 'image/jpeg' if content[:2] == b'\xff\xd8' else None
+        )
         if path.suffix.lower() == '.gltf':
             image['uri'] = relative(texture, path.parent)
         else:
@@ -472,7 +498,10 @@ class _Writer:
 
         def views(accessor):
             sparse = accessor.get('sparse', {})
-            return {accessor.get('bufferView'), *(sparse[k]['bufferView'] for k in ('indices', 'values') if k in sparse)}
+            return {
+                accessor.get('bufferView'),
+                *(sparse[k]['bufferView'] for k in ('indices', 'values') if k in sparse),
+            }
 
         kept = {image.get('bufferView') for image in data.get('images', [])}
         free = set()
@@ -500,7 +529,9 @@ class _Writer:
         if padded.shape[1] != rows.shape[1]:
             members['byteStride'] = padded.shape[1]
         accessor = {k: v for k, v in entry.items() if k not in ('bufferView', 'byteOffset', 'sparse')}
-        accessor.update(bufferView=self.view(np.ascontiguousarray(padded).tobytes(), **members), count=len(rows))
+        accessor.update(
+            bufferView=self.view(np.ascontiguousarray(padded).tobytes(), **members), count=len(rows)
+        )
         accessors = self.json.setdefault('accessors', [])
         if self._free_accessors:
             number = self._free_accessors.pop()
@@ -527,7 +558,9 @@ class _Writer:
             key = corners[first].tobytes()
         else:
             rows = {a: self._mixed(a, r, triangles, weights, primitive) for a, r in raw.items()}
-            whole = np.concatenate([np.ascontiguousarray(r) for r in rows.values()] + [uv.view(np.uint8).reshape(-1, 8)], 1)
+            whole = np.concatenate(
+                [np.ascontiguousarray(r) for r in rows.values()] + [uv.view(np.uint8).reshape(-1, 8)], 1
+            )
             _, first, index = np.unique(whole.view(np.dtype((np.void, whole.shape[1]))).ravel(),
                                         return_index=True, return_inverse=True)
             rows, key = {a: r[first] for a, r in rows.items()}, object()
@@ -545,7 +578,9 @@ class _Writer:
             {'componentType': 5126, 'type': 'VEC2'}, uv[first].view(np.uint8).reshape(-1, 8), 34962)
         small = len(first) < 65535
         index = index.ravel().astype('<u2' if small else '<u4')[:, None].view(np.uint8)
-        primitive['indices'] = self._accessor({'componentType': 5123 if small else 5125, 'type': 'SCALAR'}, index, 34963)
+        primitive['indices'] = self._accessor(
+            {'componentType': 5123 if small else 5125, 'type': 'SCALAR'}, index, 34963
+        )
         primitive.pop('mode', None)
 
     def _mixed(self, number, raw, triangles, weights, primitive):
@@ -556,7 +591,9 @@ class _Writer:
         nearest = corners[np.arange(len(corners)), weights.argmax(1)]
         if name.startswith(('JOINTS_', 'WEIGHTS_')):
             return raw[nearest]
-        values = np.ascontiguousarray(raw).view(_KINDS[self.source.json['accessors'][number]['componentType']])
+        values = np.ascontiguousarray(raw).view(
+            _KINDS[self.source.json['accessors'][number]['componentType']]
+        )
         result = mixed(values[corners], weights)
         if name in ('NORMAL', 'TANGENT') and result.dtype.kind == 'f':
             new = weights.max(1) < 1
@@ -583,7 +620,9 @@ class _Writer:
                 key = view['buffer'], view.get('byteOffset', 0), view['byteLength']
                 content = source._buffers[key[0]][key[1]:key[1] + key[2]]
                 if len(content) < key[2]:
-                    raise FileError(f'{source.path.name} is damaged: buffer view {number} goes beyond its buffer')
+                    raise FileError(
+                        f'{source.path.name} is damaged: buffer view {number} goes beyond its buffer'
+                    )
             if key is None or key not in done:
                 body += bytes(-len(body) % 4)
                 done[key] = len(body)
@@ -606,7 +645,9 @@ class _Writer:
             data['buffers'] = [{**first, 'byteLength': len(body)}] if body else []
             text = json.dumps(data, ensure_ascii=False, separators=(',', ':')).encode()
             text += b' ' * (-len(text) % 4)
-            content = struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(body), len(text), b'JSON') + text
+            content = (
+                struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(body), len(text), b'JSON') + text
+            )
             content += struct.pack('<I4s', len(body), b'BIN\0') + body
         for picture in source.pictures:
             if isinstance(picture.source, Path):
@@ -665,7 +706,9 @@ def plain(mesh):
     with np.errstate(over='ignore'):
         points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
     if not np.isfinite(points).all():
-        raise FileError(f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only')
+        raise FileError(
+            f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only'
+        )
     keys = [mesh.faces.reshape(-1, 1).astype(np.uint32)]
     entries = [('POSITION', 'VEC3', points)]
     if normals is not None:

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, counts_between, digits, distinct,
-                      mixed, numbers, relative, rewritten, spliced, table, word_starts, without_comments,
-                      words_of_lines, write_file)
+from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, counts_between, digits,
+                      distinct, mixed, numbers, relative, rewritten, spliced, table, word_starts,
+                      without_comments, words_of_lines, write_file)
 
 # Options of map_Kd and how many words follow; -o, -s, -t have up to three numbers.
 _OPTIONS = {b'-blendu': 1, b'-blendv': 1, b'-boost': 1, b'-mm': 2, b'-o': 3, b'-s': 3, b'-t': 3,
@@ -233,7 +233,9 @@ class ObjFile(MeshFile):
         rows, mask = digits(corner_vt, b'/')
         mask[~plain, 0] = False
         begin = np.r_[at[stays], self._lines.begin[gone], numbers_of_lines[:, 0]]
-        end = np.r_[end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]]
+        end = np.r_[
+            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]
+        ]
         order = np.argsort(begin, kind='stable')
         rows = np.r_[rows[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), np.uint8)][order]
         mask = np.r_[mask[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), bool)][order]
@@ -258,7 +260,11 @@ class ObjFile(MeshFile):
             messages += self._copy_materials(folder)
         pieces = [(int(self._lines.begin[line]), pieces[line] + b'\n') for line in torn_lines]
         # New vertices must not change the numbers of others.
-        late = self._relative or any(len(k) and k[-1] > self._f[0] for k in (self._v, self._vn)) if vertices else False
+        late = (
+            self._relative or any(len(k) and k[-1] > self._f[0] for k in (self._v, self._vn))
+            if vertices
+            else False
+        )
         tail = b''.join(vertices) if late else b''
         if tail and not self._data.endswith(b'\n'):
             tail = b'\n' + tail
@@ -272,9 +278,13 @@ class ObjFile(MeshFile):
 
     def _numbers_of_polylines(self):
         """(begin, end) of what lines `l` say of the old coordinates, which are no more."""
-        return [(self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
-                for line in self._lines.beginning(b'l')
-                for match in re.finditer(rb'/[^\s/]*', self._data[self._lines.begin[line]:self._lines.end[line]])]
+        return [
+            (self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
+            for line in self._lines.beginning(b'l')
+            for match in re.finditer(
+                rb'/[^\s/]*', self._data[self._lines.begin[line] : self._lines.end[line]]
+            )
+        ]
 
     def _second_numbers(self):
         """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
@@ -429,7 +439,9 @@ def plain(mesh):
     if mesh.vertex_colours is None:
         out.append(table('v %.17g %.17g %.17g\n', mesh.vertices))
     else:
-        out.append(table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]]))
+        out.append(
+            table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]])
+        )
     corner = np.zeros(int(mesh.starts[-1]), np.int64)
     corner[mesh.corners] = mesh.faces + 1
     normals = mesh.corner_normals()

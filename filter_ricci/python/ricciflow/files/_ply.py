@@ -3,13 +3,12 @@
 
 import struct
 from itertools import chain
-from pathlib import Path
 
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, MeshFile, beside, copy_beside, mixed, numbers, relative, rewritten,
-                      whole, words_of_lines, write_file)
+from ._shared import (FileError, MeshFile, beside, copy_beside, mixed, numbers, relative, rewritten, whole,
+                      words_of_lines, write_file)
 
 _TYPES = {'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4',
           'float': 'f4', 'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2',
@@ -75,7 +74,9 @@ class PlyFile(MeshFile):
             words = line.split()
             try:
                 if words[:1] == ['format']:
-                    self._order = {'ascii': None, 'binary_little_endian': '<', 'binary_big_endian': '>'}[words[1]]
+                    self._order = {'ascii': None, 'binary_little_endian': '<', 'binary_big_endian': '>'}[
+                        words[1]
+                    ]
                     known = True
                 elif words[:1] == ['element']:
                     self._elements.append(_Element(words[1], int(words[2])))
@@ -212,7 +213,11 @@ class PlyFile(MeshFile):
     def _read_uneven_text(self, element, kinds):
         """Rows with lists of several lengths, lines without words, rows not by lines."""
         n, lines = element.count, self._lines[self._next:]
-        count = words_of_lines(self._text[lines[0]:], lines[:-1] - lines[0]) if len(lines) > 1 else np.zeros(0, int)
+        count = (
+            words_of_lines(self._text[lines[0] :], lines[:-1] - lines[0])
+            if len(lines) > 1
+            else np.zeros(0, int)
+        )
         used = np.flatnonzero(count)[:n]
         if len(used) < n:
             if self._by_words(element):
@@ -306,7 +311,9 @@ class PlyFile(MeshFile):
             table = np.zeros(len(faces), [('n', 'u1'), ('v', self._order + 'i4', 3)])
             table['n'], table['v'] = 3, faces
             rows = table.tobytes()
-        self.__init__(self.path, head + self._data[self._body:element.begin] + rows + self._data[element.end:])
+        self.__init__(
+            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :]
+        )
         self.messages.append('strips of triangles are written as faces')
 
     def _read_mesh(self):
@@ -426,14 +433,18 @@ class PlyFile(MeshFile):
             begin, end = (at['texcoord'], at['texcoord', 'end']) if wide is not None else (place, place)
             values = new.corner_uv.reshape(face.count, -1).astype(self._order + kind[0])
             head = np.full((face.count, 1), 2 * counts, self._order + kind[1])
-            return np.concatenate([rows[:, :begin], head.view(np.uint8), values.view(np.uint8), rows[:, end:]], 1).tobytes()
+            return np.concatenate(
+                [rows[:, :begin], head.view(np.uint8), values.view(np.uint8), rows[:, end:]], 1
+            ).tobytes()
         fields = self._fields(face)
         begins = face.row_begins()
         if text:
             form = '%.9g' if kind[0] == 'f4' else '%.17g'
 
             def listed(pairs):
-                return (f'{pairs.size} ' + ' '.join([form] * pairs.size) % tuple(pairs.ravel().tolist())).encode()
+                return (
+                    f'{pairs.size} ' + ' '.join([form] * pairs.size) % tuple(pairs.ravel().tolist())
+                ).encode()
         else:
             def listed(pairs):
                 return (np.array(pairs.size, self._order + kind[1]).tobytes() +
@@ -575,7 +586,9 @@ def plain(mesh):
     else:
         heads = [n.tobytes() for n in count.astype(kind[0])]
         starts = mesh.starts.tolist()
-        rows = b''.join(chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:])))
+        rows = b''.join(
+            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:]))
+        )
     lines = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(mesh.vertices)}', *header,
              f'element face {len(count)}', f'property list {kind[1]} int vertex_indices', 'end_header', '']
     return '\n'.join(lines).encode() + table.tobytes() + rows

@@ -118,7 +118,8 @@ class MeshFile:
         Triangles come as (F, 3) without `starts`.
         """
         corner_vertices = np.ascontiguousarray(whole(corner_vertices, np.int32))
-        if corner_vertices.size and (corner_vertices.min() < 0 or corner_vertices.max() >= len(self.vertices)):
+        count = len(self.vertices)
+        if corner_vertices.size and (corner_vertices.min() < 0 or corner_vertices.max() >= count):
             flat = corner_vertices.ravel()
             bad = (flat < 0) | (flat >= len(self.vertices))
             corner = int(bad.argmax())
@@ -131,8 +132,10 @@ class MeshFile:
         else:
             few = np.diff(starts) < 3
             if few.any():
-                self.messages.append(f'{counted(int(few.sum()), "face")} with less than 3 corners, first face '
-                                     f'{int(few.argmax()) + 1}: not mapped')
+                self.messages.append(
+                    f'{counted(int(few.sum()), "face")} with less than 3 corners, first face '
+                    f'{int(few.argmax()) + 1}: not mapped'
+                )
             corners, polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
             self._polygons = starts, corners, polygon
             self.faces = corner_vertices[corners]
@@ -241,19 +244,29 @@ class PlainMesh(MeshFile):
 
 
 def placed(mesh, uv, refined, shows_picture):
-    """The mesh as it lies in its scene, as PlainMesh with linear colours if it has them, uv, and sentences."""
+    """The mesh as it lies in its scene, as PlainMesh; its uv; and sentences about what it does not have."""
     plain, messages = PlainMesh(mesh.path), []
     colours, normals = None if shows_picture else mesh.corner_colours(), mesh.corner_normals()
     if mesh.pictures and not shows_picture:
-        messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format')
+        messages.append(
+            f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format'
+        )
     vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     if refined is not None:
         faces, points, _ = _numbered(mesh, refined)
         vertices, origin = np.concatenate([vertices, points]), refined.origin
-        colours, normals = (None if a is None else mixed(a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]),
-                                                         refined.weights.reshape(-1, 3)).reshape(-1, *a.shape[1:])
-                            for a in (colours, normals))
-    if refined is None and all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts):
+        colours, normals = (
+            (
+                None
+                if a is None
+                else mixed(
+                    a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]), refined.weights.reshape(-1, 3)
+                ).reshape(-1, *a.shape[1:])
+            )
+            for a in (colours, normals)
+        )
+    stays = all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts)
+    if refined is None and stays:
         plain.vertices, plain.faces, plain._polygons = vertices, faces, mesh._polygons
         plain.diagonals, plain.colours, plain.normals = mesh.diagonals, colours, normals
     else:
@@ -400,7 +413,14 @@ def _clip_ears(points):
     def shape(i):  # of the triangle at corner i: signed, 0 without area
         (ax, ay), (bx, by), (cx, cy) = xy[before[i]], xy[i], xy[after[i]]
         area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        sides = (bx - ax) ** 2 + (by - ay) ** 2 + (cx - bx) ** 2 + (cy - by) ** 2 + (ax - cx) ** 2 + (ay - cy) ** 2
+        sides = (
+            (bx - ax) ** 2
+            + (by - ay) ** 2
+            + (cx - bx) ** 2
+            + (cy - by) ** 2
+            + (ax - cx) ** 2
+            + (ay - cy) ** 2
+        )
         return area / sides if sides > 0 else 0.0
 
     shapes = np.array([shape(i) for i in range(n)])

@@ -63,9 +63,13 @@ class _Model:
             mesh.corners.extend((int(get('v1')), int(get('v2')), int(get('v3'))))
             if 'p1' in attributes or 'pid' in attributes:
                 p = get('p1', '0')
-                mesh.properties.append((len(mesh.tags) - 1, get('pid'), (int(p), int(get('p2', p)), int(get('p3', p)))))
+                mesh.properties.append(
+                    (len(mesh.tags) - 1, get('pid'), (int(p), int(get('p2', p)), int(get('p3', p))))
+                )
         elif tag == 'object':
-            self._object = self.objects[get('id')] = _Object(get('name', ''), get('pid'), int(get('pindex', 0)))
+            self._object = self.objects[get('id')] = _Object(
+                get('name', ''), get('pid'), int(get('pindex', 0))
+            )
             if self.first_object is None:
                 self.first_object = self._parser.CurrentByteIndex
         elif tag == 'mesh' and self._object:
@@ -107,8 +111,8 @@ class ThreeMfFile(MeshFile):
                             if info.filename.lower().endswith('.model')]
         except FileError as error:
             raise FileError(f'{self.path.name}: {error}') from None
-        except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError, ValueError,
-                TypeError, AttributeError, KeyError, OverflowError, expat.ExpatError) as error:
+        except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError,
+                ValueError, TypeError, AttributeError, KeyError, OverflowError, expat.ExpatError) as error:
             raise FileError(f'{self.path.name} is damaged: {error}') from error
         if not self._models:
             raise FileError(f'{self.path.name} has no 3D model')
@@ -128,8 +132,10 @@ class ThreeMfFile(MeshFile):
                 corners = np.array(mesh.corners).reshape(-1, 3)
                 if corners.min() < 0 or corners.max() >= len(own):
                     bad = ((corners < 0) | (corners >= len(own))).any(1)
-                    raise FileError(f'{self.path.name}: {int(bad.sum())} faces of object {key}, first of face '
-                                    f'{int(bad.argmax()) + 1}, name a vertex beyond its {len(own)}')
+                    raise FileError(
+                        f'{self.path.name}: {int(bad.sum())} faces of object {key}, first of face '
+                        f'{int(bad.argmax()) + 1}, name a vertex beyond its {len(own)}'
+                    )
                 part = Part(mesh.name or f'object {key}', slice(face_count, face_count + len(corners)),
                             slice(vertex_count, vertex_count + len(own)),
                             places.get((model.name, key), [np.eye(4)]))
@@ -146,7 +152,9 @@ class ThreeMfFile(MeshFile):
         self.vertices = np.concatenate(points)
         self.set_polygons(np.concatenate(faces))
         colours, uv, pictures = (np.concatenate(a) for a in zip(*looks))
-        self._colours = None if np.isnan(colours).all() else np.where(np.isnan(colours), 1, colours).astype(np.float32)
+        self._colours = (
+            None if np.isnan(colours).all() else np.where(np.isnan(colours), 1, colours).astype(np.float32)
+        )
         if not np.isnan(uv).all():
             self.uv, self.uv_picture = uv, pictures.astype(np.int32)
             self.pictures = [_pictures.Picture(n, self._part(n)) for n in self._picture_names]
@@ -154,7 +162,11 @@ class ThreeMfFile(MeshFile):
     def _look(self, model, mesh, part):
         """Colours (f, 3, 4) and coordinates (f, 3, 2), NaN where there are none, and pictures (f,)."""
         count = len(mesh.tags)
-        colours, uv, pictures = np.full((count, 3, 4), np.nan), np.full((count, 3, 2), np.nan), np.full(count, -1)
+        colours, uv, pictures = (
+            np.full((count, 3, 4), np.nan),
+            np.full((count, 3, 2), np.nan),
+            np.full(count, -1),
+        )
         self._picture_names = getattr(self, '_picture_names', [])
         groups, whole = {}, np.arange(count)
         if mesh.pid is not None:
@@ -222,8 +234,10 @@ class ThreeMfFile(MeshFile):
                 picture = _pictures.decode(content, Path(texture).name)
                 kind, content = 'png', _pictures.encode_png(picture)
         elif self.corner_colours() is not None or self.uv is not None:
-            messages.append('the colours and pictures of the 3MF give way to the coordinates, which show a white '
-                            'picture')
+            messages.append(
+                'the colours and pictures of the 3MF give way to the coordinates, which show a white '
+                'picture'
+            )
         name = f'{_PICTURE}.{kind}'
         number = 1
         while self._part(name) is not None:
@@ -250,8 +264,11 @@ class ThreeMfFile(MeshFile):
             turn = [0, 2, 1] if part.mirrored else [0, 1, 2]
             pairs, index = distinct(new.uv[triangles][:, turn].reshape(-1, 2))
             index = index.reshape(-1, 3).tolist()
-            resources.append(f'<m:texture2dgroup xmlns:m="{_MATERIALS}" id="{group}" texid="{first}">'.encode() +
-                             table('<m:tex2coord u="%.9g" v="%.9g"/>', pairs) + b'</m:texture2dgroup>')
+            resources.append(
+                f'<m:texture2dgroup xmlns:m="{_MATERIALS}" id="{group}" texid="{first}">'.encode()
+                + table('<m:tex2coord u="%.9g" v="%.9g"/>', pairs)
+                + b'</m:texture2dgroup>'
+            )
             vertices = new.vertices[triangles][:, turn].astype(np.int64)
             fresh, where = np.unique(vertices[vertices >= len(self.vertices)], return_inverse=True)
             vertices[vertices >= len(self.vertices)] = where.ravel() + part.vertices.stop
@@ -267,7 +284,9 @@ class ThreeMfFile(MeshFile):
             for t, begin in enumerate(mesh.tags):
                 end = data.index(b'>', begin)
                 bare = data[end - 1:end] == b'/'
-                tag = re.sub(rb'''\s(?:pid|p[123])\s*=\s*("[^"]*"|'[^']*')''', b'', data[begin:end - bare]).rstrip()
+                tag = re.sub(
+                    rb'''\s(?:pid|p[123])\s*=\s*("[^"]*"|'[^']*')''', b'', data[begin : end - bare]
+                ).rstrip()
                 out = []
                 for k in pieces.get(t, []):
                     own = tag if not torn[part.faces.start + t] else re.sub(
@@ -301,8 +320,14 @@ class ThreeMfFile(MeshFile):
                     new = old.replace(b'</Relationships>', relations.pop(info.filename) + b'</Relationships>')
                 package.writestr(_entry(info.filename, info), new)
             for name, relation in relations.items():
-                package.writestr(_entry(name), b'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="' +
-                                 _RELATIONS.encode() + b'">' + relation + b'</Relationships>')
+                package.writestr(
+                    _entry(name),
+                    b'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="'
+                    + _RELATIONS.encode()
+                    + b'">'
+                    + relation
+                    + b'</Relationships>',
+                )
             package.writestr(_entry(picture), content)
         write_file(path, out.getvalue())
 
@@ -339,20 +364,31 @@ def plain(mesh):
     """(bytes) A 3MF of the mesh, one object."""
     triangles = table('<triangle v1="%d" v2="%d" v3="%d"/>', mesh.faces)
     name = re.sub(r'[^\w .-]', '_', mesh.path.stem)
-    model = (b'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.'
-             b'microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type="model" name="' +
-             name.encode('utf-8', 'replace') + b'"><mesh><vertices>' +
-             table('<vertex x="%.17g" y="%.17g" z="%.17g"/>', mesh.vertices) + b'</vertices><triangles>' + triangles +
-             b'</triangles></mesh></object></resources><build><item objectid="1"/></build></model>')
-    kinds = (b'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/2006/'
-             b'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.'
-             b'relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.'
-             b'3dmanufacturing-3dmodel+xml"/></Types>')
-    relations = (b'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="' + _RELATIONS.encode() + b'">'
-                 b'<Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/'
-                 b'3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+    model = (
+        b'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="http://'
+        b'schemas.'
+        b'microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type="model" name="'
+        + name.encode('utf-8', 'replace')
+        + b'"><mesh><vertices>'
+        + table('<vertex x="%.17g" y="%.17g" z="%.17g"/>', mesh.vertices)
+        + b'</vertices><triangles>'
+        + triangles
+        + b'</triangles></mesh></object></resources><build><item objectid="1"/></build></model>'
+    )
+    kinds = (
+        b'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/'
+        b'2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.'
+        b'relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.'
+        b'3dmanufacturing-3dmodel+xml"/></Types>'
+    )
+    relations = (
+        b'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="' + _RELATIONS.encode() + b'">'
+        b'<Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/'
+        b'3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+    )
     out = BytesIO()
     with zipfile.ZipFile(out, 'w', zipfile.ZIP_DEFLATED) as package:
-        for entry, content in (('[Content_Types].xml', kinds), ('_rels/.rels', relations), ('3D/3dmodel.model', model)):
+        for entry, content in (('[Content_Types].xml', kinds), ('_rels/.rels', relations),
+                               ('3D/3dmodel.model', model)):
             package.writestr(_entry(entry), content)
     return out.getvalue()
