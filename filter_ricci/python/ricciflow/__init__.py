@@ -1,29 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab.
+"""UV-unwraps triangle meshes: conformal maps by the discrete Ricci flow.
 
-    from pymeshlab_ricci import flatten, uniformize
+    from ricciflow import flatten, uniformize
 
-    result = flatten("scan.ply")                  # or (vertices, faces), or a MeshSet
+    result = flatten("scan.ply")                  # or (vertices, faces), or a MeshSet of PyMeshLab
     result.uv                                     # texture coordinates: faces x corners x 2
     result.charts, result.qc_area_mean            # what came out of it
     result.save("scan.obj")
 
-Importing this module also makes both filters methods of pymeshlab.MeshSet. On the command line:
-python -m pymeshlab_ricci IN OUT.
+On the command line: python -m ricciflow IN OUT. With PyMeshLab, `import ricciflow.pymeshlab` makes both
+filters methods of MeshSet; where PyMeshLab has been imported before, so does `import ricciflow`.
 """
 
-from importlib.metadata import PackageNotFoundError, version
+import sys
 
-from pymeshlab import Mesh, MeshSet
-
+from ._errors import RicciWarning, Refused
 from ._filters import EUCLIDEAN, HYPERBOLIC
-from ._parametrize import (Flattening, Layer, Parametrization, Refused, Uniformization, flatten,
-                           uniformize)
+from ._library import VERSION as __version__
+from ._parametrize import (Flattening, Layer, Parametrization, Uniformization, flatten, uniformize)
 
-try:
-    __version__ = version("pymeshlab-ricci")
-except PackageNotFoundError:
-    __version__ = "unknown"
+__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Layer", "Parametrization", "Refused",
+           "RicciWarning", "Uniformization", "flatten", "uniformize"]
 
-__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Layer", "Mesh", "MeshSet", "Parametrization",
-           "Refused", "Uniformization", "flatten", "uniformize"]
+if "pymeshlab" in sys.modules:
+    from . import pymeshlab

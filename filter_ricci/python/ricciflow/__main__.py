@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flattens one mesh, or every mesh of a folder.
+"""UV-unwraps one mesh, or every mesh of a folder.
 
-    python -m pymeshlab_ricci scan.ply scan.obj
-    python -m pymeshlab_ricci scan.ply scan.obj --target-curvature Disk --report scan.html
-    python -m pymeshlab_ricci meshes out --workers 8
-    python -m pymeshlab_ricci meshes out --scheduler tcp://host:8786
+    python -m ricciflow scan.ply scan.obj
+    python -m ricciflow scan.ply scan.obj --target-curvature Disk --report scan.html
+    python -m ricciflow meshes out --workers 8
+    python -m ricciflow meshes out --scheduler tcp://host:8786
 
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT, which may be
-the folder of the meshes, gets for meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html
-for --report and a/b.off.png for --carry-texture, and at the end results.csv with a row for each mesh and
-failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run
-that was interrupted goes on where it stopped; a mesh runs again where mesh, parameters or plugin have
-changed. With a cluster, this package and both folders have to be on every machine, the folders at the
-same path.
+the folder of the meshes, gets for meshes/a/b.off the files a/b.ply and a/b.json, a/b.html for --report
+and a/b.png for --carry-texture (or a/b.off.ply and so on, where a/b.ply would replace a mesh or there is
+another mesh a/b), and at the end results.csv with a row for each mesh and failures.txt with the meshes
+without a result. An OUT that is a file is replaced, even if it is IN. A run that was interrupted goes on
+where it stopped; a mesh runs again where mesh, parameters or library have changed. With a cluster, this
+package and both folders have to be on every machine, the folders at the same path.
 
 Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
 
@@ -29,6 +29,7 @@ import sys
 
 from . import __version__, _batch
 from ._filters import DESCRIPTIONS, choice, plain
+from ._loading import mesh_endings
 from ._parametrize import FORMATS
 
 
@@ -75,13 +76,13 @@ def count(text):
 
 def parse(arguments):
     name = os.path.basename(sys.argv[0])
-    parser = Parser(prog="python -m pymeshlab_ricci" if name == "__main__.py" else name,
+    parser = Parser(prog="python -m ricciflow" if name == "__main__.py" else name,
                     description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--version", action="version", version=f"pymeshlab-ricci {__version__}")
+    parser.add_argument("--version", action="version", version=f"ricciflow {__version__}")
     parser.add_argument("mesh", metavar="IN", help="a mesh, or a folder, with everything below it")
     parser.add_argument("out", metavar="OUT", help=f"a file ({', '.join(FORMATS)}), or a folder")
     parser.add_argument("--format", choices=[ending[1:] for ending in FORMATS], default="ply",
-                        help="of the results of a folder; glTF needs trimesh. Default: ply")
+                        help="of the results of a folder. Default: ply")
     parser.add_argument("--hyperbolic", action="store_true",
                         help="the hyperbolic filter, whose parameters --hyperbolic --help shows")
     parser.add_argument("--timeout", type=float, default=3600, help="seconds for one mesh")
@@ -89,6 +90,7 @@ def parse(arguments):
     parser.add_argument("--scheduler", help="address of a Dask scheduler, or 'local' for Dask here")
     parser.add_argument("--retry", action="store_true", help="run crashes and timeouts again")
     parser.add_argument("--quiet", action="store_true", help="failures only")
+    parser.add_argument("--verbose", action="store_true", help="all results of the mesh, by their keys")
     group = parser.add_argument_group("parameters of the filter")
     for parameter in DESCRIPTIONS["--hyperbolic" in arguments]["parameters"]:
         add_parameter(group, parameter)
@@ -98,7 +100,7 @@ def parse(arguments):
     return parser, options
 
 
-def make_job(options, mesh, name, target, record="", mark=""):
+def make_job(options, mesh, name, target, record="", mark="", former=()):
     parameters = dict(options.parameters)
     for key in ("report", "carry_texture"):
         if parameters.get(key):
@@ -107,8 +109,29 @@ def make_job(options, mesh, name, target, record="", mark=""):
                 parameters[key] = os.path.splitext(target)[0] + ending
             parameters[key] = os.path.abspath(parameters[key])
     return {"mesh": os.path.abspath(mesh), "name": name, "target": os.path.abspath(target),
-            "record": record, "fingerprint": mark, "hyperbolic": options.hyperbolic,
+            "record": record, "former": former, "fingerprint": mark, "hyperbolic": options.hyperbolic,
             "parameters": parameters, "timeout": options.timeout}
+
+
+def warn(record, write=lambda line: print(line, file=sys.stderr, flush=True)):
+    for message in record.get("messages", ()):
+        write(f"{record['mesh']}: {message}")
+
+
+def sentence(record, target):
+    """What came out of a run, in one line."""
+    results = record["results"]
+
+    flips = results["flipped_faces"] + results["flipped_by_rounding"]
+    return ", ".join((f"{results['charts']} chart{'s' if results['charts'] != 1 else ''}",
+                      f"{100 * results['occupancy']:.0f} % filled",
+                      f"{flips or 'no'} flip{'s' if flips != 1 else ''}",
+                      f"{record['seconds']:.1f} s -> {target}"))
+
+
+def printed(value, key):
+    """A result as it is written: vertices are numbers that count."""
+    return [int(v) for v in value] if key == "cone_vertices" else value
 
 
 class Lines:
@@ -119,6 +142,7 @@ class Lines:
 
     def show(self, record):
         self.ended += 1
+        warn(record)
         if not self.quiet or record["state"] != "solved":
             print(f"[{self.ended}/{self.count}] {record['state']:8} {record['mesh']}  "
                   f"{record.get('reason', '')}".rstrip(), flush=True)
@@ -135,6 +159,7 @@ class Bar:
         self.bar = tqdm(total=count, unit="mesh")
 
     def show(self, record):
+        warn(record, self.bar.write)
         if record["state"] != "solved":
             self.bar.write(f"{record['state']:8} {record['mesh']}  {record.get('reason', '')}")
         self.bar.update()
@@ -166,9 +191,12 @@ def one_mesh(options):
     if record["state"] != "solved":
         print(f"{record['state']}: {record['reason']}", file=sys.stderr)
         return 1
+    warn(record)
     if not options.quiet:
+        print(sentence(record, options.out))
+    if options.verbose:
         for key, value in record["results"].items():
-            print(f"{key} = {value}")
+            print(f"{key} = {printed(value, key)}")
     return 0
 
 
@@ -178,20 +206,24 @@ def folder(parser, options):
     if others and not options.quiet:
         print("Skipped: " + ", ".join(f"{n} x {ending}" for ending, n in sorted(others.items())))
     if not names:
-        parser.error(f"There are no meshes ({', '.join(_batch.ENDINGS)}) below {options.mesh}.")
-    targets = {name: os.path.join(out, f"{name}.{options.format}") for name in names}
+        parser.error(f"There are no meshes ({', '.join(mesh_endings())}) below {options.mesh}.")
+    stems = _batch.stems(names, source, out, "." + options.format)
+    targets = {name: os.path.join(out, f"{stems[name]}.{options.format}") for name in names}
+    meshes = {os.path.join(source, name) for name in names}
     for name in names:
-        if os.path.relpath(targets[name], source) in targets:
+        if targets[name] in meshes:
             parser.error(f"The result of {name} would replace the mesh {targets[name]}: choose "
                          "another OUT.")
     os.makedirs(out, exist_ok=True)
     check_writable(out)
     common = _batch.fingerprint(options.hyperbolic, options.format, options.parameters)
     marks = {name: _batch.mark_of(os.path.join(source, name), common) for name in names}
-    jobs = [make_job(options, os.path.join(source, name), name, targets[name],
-                     _batch.record_path(out, name), marks[name])
+    records = {name: _batch.record_path(out, stem) for name, stem in stems.items()}
+    jobs = [make_job(options, os.path.join(source, name), name, targets[name], records[name],
+                     marks[name], [_batch.record_path(out, stem)
+                                   for stem in (name, os.path.splitext(name)[0])])
             for name in names if not _batch.is_done(
-                _batch.read_record(_batch.record_path(out, name)), marks[name], options.retry)]
+                _batch.read_record(records[name]), marks[name], options.retry)]
     if not options.quiet:
         print(f"{len(names)} {'mesh' if len(names) == 1 else 'meshes'}, {len(names) - len(jobs)} done "
               f"before, {len(jobs)} to run", flush=True)
@@ -204,7 +236,7 @@ def folder(parser, options):
     except KeyboardInterrupt:
         interrupted = True
     shown.close()
-    failures = _batch.summarize(out, names)
+    failures = _batch.summarize(out, stems)
     if interrupted:
         print("Interrupted: the same command goes on from here.", file=sys.stderr)
         return 130

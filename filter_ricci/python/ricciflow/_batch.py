@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs jobs, each in a process of its own, here or on a cluster, and keeps their records.
 
-For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, files, seconds)
-and a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless
-mesh, parameters or plugin differ: a run that was interrupted goes on where it stopped. What an
-earlier run wrote for a mesh goes before it runs again."""
+For meshes/a/b.off the folder OUT then holds a/b.ply and its record a/b.json (state, results or
+reason, messages, files, seconds), or a/b.off.ply and a/b.off.json where the short names would meet
+another mesh. The record is written last. A mesh whose record is there is not run again unless mesh,
+parameters or library differ: a run that was interrupted goes on where it stopped. What an earlier run
+wrote for a mesh is removed before it runs again."""
 
 import collections
 import concurrent.futures
@@ -20,11 +21,9 @@ import sys
 import threading
 import time
 
-from ._plugin import PLUGIN
+from ._library import PATH as LIBRARY
+from ._loading import mesh_endings
 
-# Of the formats that PyMeshLab loads, those that hold faces.
-ENDINGS = tuple(".3ds .3mf .asc .bre .ctm .dae .fbx .glb .gltf .obj .off .ply .ptx .qobj .stl .vmi .wrl "
-                ".x3d .x3dv".split())
 ANSWERED = ("solved", "refused")
 FINAL = (*ANSWERED, "unreadable")  # states that a second run would only repeat
 FAILED = ("crashed", "timeout")
@@ -33,7 +32,7 @@ FAILED = ("crashed", "timeout")
 def find_meshes(folder):
     """Paths below the folder, relative to it, in order; and of the other files, how many have which
     ending. Files that a run has written there count as neither."""
-    found, others = [], collections.Counter()
+    found, others, endings = [], collections.Counter(), mesh_endings()
     for place, _, names in os.walk(folder):
         written = {"results.csv", "failures.txt"}
         for name in names:
@@ -42,7 +41,7 @@ def find_meshes(folder):
                 written.update(record["files"], [name])
         for name in set(names) - written:
             ending = os.path.splitext(name)[1].lower()
-            if ending in ENDINGS:
+            if ending in endings:
                 found.append(os.path.relpath(os.path.join(place, name), folder))
             else:
                 others[ending or "without an ending"] += 1
@@ -51,8 +50,8 @@ def find_meshes(folder):
 
 def fingerprint(*settings):
     """What the results depend on besides their meshes."""
-    with open(PLUGIN, "rb") as plugin:
-        digest = hashlib.sha256(plugin.read())
+    with open(LIBRARY, "rb") as library:
+        digest = hashlib.sha256(library.read())
     digest.update(json.dumps(settings, sort_keys=True).encode())
     return digest.hexdigest()[:16]
 
@@ -63,8 +62,28 @@ def mark_of(mesh, common):
     return f"{common}-{state.st_size}-{state.st_mtime_ns}"
 
 
-def record_path(out, name):
-    return os.path.join(out, name + ".json")
+def stems(names, source, out, ending):
+    """For each mesh the name that its files in OUT begin with: its own without the ending, or the whole
+    of it where a result would replace it, or another mesh or its files have that name, or a file
+    that is no record of ours is in the place of one."""
+    beginnings = collections.Counter()
+    for name in names:
+        folder, file = os.path.split(name)
+        parts = file.split(".")
+        beginnings.update(os.path.join(folder, ".".join(parts[:k])) for k in range(1, len(parts)))
+    found = {}
+    for name in names:
+        short = os.path.splitext(name)[0]
+        record = os.path.join(out, short + ".json")
+        meets = (beginnings[short] > 1 or
+                 os.path.join(out, short + ending) == os.path.join(source, name) or
+                 os.path.exists(record) and "state" not in read_record(record))
+        found[name] = name if meets else short
+    return found
+
+
+def record_path(out, stem):
+    return os.path.join(out, stem + ".json")
 
 
 def read_record(path):
@@ -84,11 +103,11 @@ def write_record(path, record):
     os.replace(partial, path)
 
 
-def clear(job):
-    """Removes what an earlier run wrote under this mesh's name, not a texture that others show too.
-    The record goes first: files without some of theirs must not pass for a result."""
-    folder, name = os.path.split(job["record"].removesuffix("json"))
-    files = read_record(job["record"]).get("files", ())
+def clear(path):
+    """Removes a record and what the run wrote under the mesh's name, not a texture that others show
+    too. The record goes first: files without some of theirs must not pass for a result."""
+    folder, name = os.path.split(path.removesuffix("json"))
+    files = read_record(path).get("files", ())
     for file in (name + "json", *(file for file in files if file.startswith(name))):
         with contextlib.suppress(OSError):
             os.remove(os.path.join(folder, file))
@@ -147,9 +166,10 @@ def run_one(job, processes=None):
     started = time.monotonic()
     record = {"mesh": job["name"], "fingerprint": job["fingerprint"]}
     processes = processes or Processes()
-    if job["record"]:
-        clear(job)
-    process = processes.start([sys.executable, "-m", "pymeshlab_ricci._worker", json.dumps(job)])
+    for path in job["former"]:
+        if read_record(path).get("mesh") == job["name"]:
+            clear(path)
+    process = processes.start([sys.executable, "-m", "ricciflow._worker", json.dumps(job)])
     try:
         printed, errors = process.communicate(timeout=job["timeout"])
         try:
@@ -227,16 +247,18 @@ def by_dask(scheduler, workers):
 
 
 def summarize(out, names):
-    """Rewrites results.csv and failures.txt from the records. The number of failures."""
-    records = [{"mesh": name, "state": "missing", **read_record(record_path(out, name))}
-               for name in names]
+    """Rewrites results.csv and failures.txt from the records of the meshes, whose stems are given. The
+    number of failures."""
+    records = [{"mesh": name, "state": "missing", **read_record(record_path(out, stem))}
+               for name, stem in names.items()]
     keys = sorted({key for record in records for key in record.get("results", {})})
     with open(os.path.join(out, "results.csv"), "w", encoding="utf-8", newline="") as target:
         table = csv.writer(target)
-        table.writerow(["mesh", "state", "seconds", *keys])
+        table.writerow(["mesh", "state", "seconds", "messages", *keys])
         for record in records:
             results = record.get("results", {})
             table.writerow([record["mesh"], record["state"], record.get("seconds", ""),
+                            " ".join(record.get("messages", ())),
                             *(results.get(key, "") for key in keys)])
     with open(os.path.join(out, "failures.txt"), "w", encoding="utf-8") as target:
         for record in records:

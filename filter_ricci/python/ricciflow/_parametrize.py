@@ -3,28 +3,20 @@
 
 import html
 import inspect
-import itertools
 import math
 import os
-import tempfile
 import typing
+import warnings
 
 import numpy
-import pymeshlab
 
-from ._drawing import charts
-from ._filters import DESCRIPTIONS, apply, checked, documentation, signature
-from ._plugin import teller, watched
+from . import _library, _loading
+from ._errors import RicciWarning
+from ._filters import DESCRIPTIONS, checked, documentation, signature
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
+from ._watched import teller, watched
 
-
-class Refused(pymeshlab.PyMeshLabException):
-    """The mesh is refused; the text says why. It is unchanged, but for what
-    flatten() and uniformize() were given with it: `selected` stays as the selection of its vertices,
-    `curvature` as their quality."""
-
-
-FORMATS = (".ply", ".obj", ".glb", ".gltf")  # that save() writes
+FORMATS = (".ply", ".obj", ".glb", ".gltf", ".3mf")  # that save() writes
 
 
 class Layer(typing.NamedTuple):
@@ -35,14 +27,8 @@ class Layer(typing.NamedTuple):
     edges: numpy.ndarray
 
 
-def kind_of(layer):
-    """What a new layer is, in one word: of 'Universal cover a.ply' it is 'cover'."""
-    first = layer.label().split()[0].lower()
-    return {"universal": "cover", "canonical": "polygon"}.get(first, first)
-
-
 class Parametrization:
-    """A mesh and its texture coordinates. It can be pickled and copied, but for images of textures.
+    """A mesh and its texture coordinates. It can be pickled and copied.
 
     vertices : (V, 3) float64
     faces : (F, 3) int32, indices of vertices
@@ -52,25 +38,21 @@ class Parametrization:
     target_curvature : (V,) float64, the Gaussian curvature that the flow reached, in radians
     layers : those that were asked for, each with vertices, faces and edges, by what they are: flat,
         sphere, disk, cover, axes, polygon
-    mesh_set : the MeshSet that holds the mesh, and the new layers
     results : what the filter returned, a dictionary; each result is an attribute too
+    messages : doubts about the map, a list of sentences; each is a RicciWarning, too
+    log : all lines that the run has written
+    mesh_set : PyMeshLab's MeshSet that holds the mesh, and the new layers
     """
 
-    def __init__(self, mesh_set, results, before=(), has_new_texture=False):
-        mesh = mesh_set.current_mesh()
-        self.results = results
-        self.vertices = mesh.vertex_matrix()
-        self.faces = mesh.face_matrix()
-        self.uv = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
-        self.quality = mesh.vertex_scalar_array()
-        self.log_radius = mesh.vertex_custom_scalar_attribute_array("ricci_u")
-        self.target_curvature = mesh.vertex_custom_scalar_attribute_array("ricci_target_curvature")
-        self._label = mesh.label()
-        self._layers = {
-            kind_of(layer): Layer(layer.vertex_matrix(), layer.face_matrix(), layer.edge_matrix())
-            for layer in mesh_set if layer.id() not in (mesh.id(), *before)}
-        self._mesh_set = mesh_set
-        self._has_new_texture = has_new_texture
+    def __init__(self, outputs, log, messages, name="", file=None, texture="", mesh_set=None):
+        for key in ("vertices", "faces", "uv", "quality", "log_radius", "target_curvature"):
+            setattr(self, key, outputs[key])
+        self.results = results_of(outputs)
+        self.log, self.messages = list(log), list(messages)
+        self._layers = layers_of(outputs)
+        self._origin = outputs.get("face_of_origin")
+        self._name, self._file, self._texture = name, file, texture
+        self._mesh_set, self._is_hosted = mesh_set, mesh_set is not None
 
     def __repr__(self):
         keys = ("genus", "boundary_loops", "charts", "cones", "qc_area_mean", "flipped_faces")
@@ -78,6 +60,7 @@ class Parametrization:
         return f"<{type(self).__name__} faces={len(self.faces)}{shown}>"
 
     def _repr_html_(self):
+        from ._drawing import charts
         points, corners = self.indexed()
         return f"{charts(points, corners)}<br><code>{html.escape(repr(self))}</code>"
 
@@ -86,21 +69,14 @@ class Parametrization:
 
     @property
     def layers(self):
-        return dict(self._layers)
+        return {kind: Layer(*(part.get(key, empty.copy()) for key, empty in _NOTHING.items()))
+                for kind, part in self._layers.items()}
 
     @property
     def mesh_set(self):
-        if self._mesh_set is None:  # after pickling
-            new = pymeshlab.MeshSet()
-            for kind, layer in self._layers.items():
-                new.add_mesh(pymeshlab.Mesh(*layer), f"{kind.capitalize()} {self._label}")
-            mesh = pymeshlab.Mesh(
-                self.vertices, self.faces, v_scalar_array=self.quality,
-                w_tex_coords_matrix=numpy.ascontiguousarray(self.uv.reshape(-1, 2)))
-            mesh.add_vertex_custom_scalar_attribute(self.log_radius, "ricci_u")
-            mesh.add_vertex_custom_scalar_attribute(self.target_curvature, "ricci_target_curvature")
-            new.add_mesh(mesh, self._label)
-            self._mesh_set = new
+        if self._mesh_set is None:
+            from . import pymeshlab
+            self._mesh_set = pymeshlab.mesh_set_of(self, self._layers, self._name)
         return self._mesh_set
 
     def indexed(self):
@@ -116,48 +92,80 @@ class Parametrization:
         return points.astype(numpy.float64), index.reshape(-1, 3)
 
     def save(self, path):
-        """Writes the mesh with its texture coordinates: to a PLY file with the quality too; to OBJ with
-        triangles, because PyMeshLab 2025.7 writes polygons without texture coordinates; to GLB and
-        glTF by trimesh, with the texture that carry_texture has drawn."""
+        """Writes the mesh with its texture coordinates, and with the texture that carry_texture has
+        drawn. What was in the file that the mesh is from stays; a PLY file gets the quality too."""
         path = os.fspath(path)
-        ending = os.path.splitext(path)[1].lower()
-        if ending not in FORMATS:
+        if os.path.splitext(path)[1].lower() not in FORMATS:
             raise ValueError(f"{path}: a file with texture coordinates ends in {' or '.join(FORMATS)}")
         if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
             raise FileNotFoundError(f"{path} cannot be written: there is no such folder")
-        if ending in (".glb", ".gltf"):
-            self._save_gltf(path)
+        if self._mesh_set is not None and self._is_hosted and path.lower().endswith((".ply", ".obj")):
+            from . import pymeshlab
+            pymeshlab.save(self._mesh_set, path)
             return
-        keep = {"save_vertex_quality": True} if ending == ".ply" else {"save_polygonal": False}
-        if not all(os.path.splitext(name)[1] for name in self.mesh_set.current_mesh().textures()):
-            keep["save_textures"] = False  # images of glTF have no name that says how to write them
+        from . import files
+        file = self._file or files.plain(self.vertices, self.faces)
+        refined = None
+        if self._file is not None and len(self.faces) != len(file.faces):
+            refined = (self.vertices, self.faces, self._origin, self._weights(file))
         try:
-            self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep)
-        except pymeshlab.PyMeshLabException as problem:
-            raise OSError(" ".join(str(problem).split())) from None
+            said = file.save(path, self.uv, self._texture or None, refined=refined,
+                             quality=self.quality)
+        except files.FileError as problem:
+            raise OSError(str(problem)) from None
+        for sentence in said:
+            warnings.warn(sentence, RicciWarning, stacklevel=2)
 
-    def _save_gltf(self, path):
-        try:
-            import trimesh
-        except ImportError:
-            raise ImportError(f"{path} is written by trimesh: pip install trimesh") from None
-        points, corners = self.indexed()
-        vertices = numpy.empty((len(points), 3))
-        vertices[corners] = self.vertices[self.faces]
-        visual = trimesh.visual.TextureVisuals(uv=points, material=trimesh.visual.material.PBRMaterial())
-        if self._has_new_texture:  # an old one does not fit
-            from PIL import Image
-            with tempfile.TemporaryDirectory() as folder:
-                picture = os.path.join(folder, "texture.png")
-                for image in self.mesh_set.current_mesh().textures().values():
-                    image.save(picture)
-                    with Image.open(picture) as opened:
-                        visual.material.baseColorTexture = opened.copy()
-        mesh = trimesh.Trimesh(vertices, corners, visual=visual, process=False)
-        embed = {"embed_buffers": True} if path.lower().endswith(".gltf") else {}
+    def _weights(self, file):
+        """(F, 3, 3) barycentric coordinates of the corners in the faces of the file."""
+        triangles = file.vertices[file.faces[self._origin]]
+        sides = triangles[:, 1:] - triangles[:, :1]
+        offsets = self.vertices[self.faces] - triangles[:, :1]
+        gram = sides @ sides.transpose(0, 2, 1)
+        two = (numpy.linalg.pinv(gram) @ sides @ offsets.transpose(0, 2, 1)).transpose(0, 2, 1)
+        weights = numpy.concatenate((1.0 - two.sum(axis=2, keepdims=True), two), axis=2)
+        same = self.faces[:, :, None] == file.faces[self._origin][:, None, :]
+        return numpy.where(same.any(axis=2, keepdims=True), same, weights)
+
+    def save_layer(self, kind, path):
+        """Writes one of `layers` to a PLY file."""
+        layer = self.layers[kind]
+        vertex = numpy.dtype([(axis, "<f8") for axis in "xyz"])
+        face = numpy.dtype([("count", "u1"), ("corners", "<i4", 3)])
+        faces = numpy.empty(len(layer.faces), face)
+        faces["count"], faces["corners"] = 3, layer.faces
+        header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(layer.vertices)}",
+                  *(f"property double {axis}" for axis in vertex.names)]
+        if len(faces):
+            header += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
+        if len(layer.edges):
+            header += [f"element edge {len(layer.edges)}", "property int vertex1",
+                       "property int vertex2"]
         with open(path, "wb") as target:
-            data = mesh.export(file_type=os.path.splitext(path)[1][1:].lower(), **embed)
-            target.write(data["model.gltf"] if embed else data)
+            target.write("\n".join([*header, "end_header", ""]).encode())
+            target.write(numpy.ascontiguousarray(layer.vertices, "<f8").tobytes())
+            target.write(faces.tobytes())
+            target.write(numpy.ascontiguousarray(layer.edges, "<i4").tobytes())
+
+
+_NOTHING = {"vertices": numpy.empty((0, 3)), "faces": numpy.empty((0, 3), numpy.int32),
+            "edges": numpy.empty((0, 2), numpy.int32)}
+
+
+def results_of(outputs):
+    """Of the outputs of a run, key -> value: numbers as Python has them, rows as arrays."""
+    return {key[len("results."):]: value if value.ndim else value.item()
+            for key, value in outputs.items() if key.startswith("results.")}
+
+
+def layers_of(outputs):
+    """Kind of the layer -> what it has, name -> array."""
+    layers = {}
+    for name, values in outputs.items():
+        kind, _, part = name.partition(".")
+        if part and kind != "results":
+            layers.setdefault(kind, {})[part] = values
+    return layers
 
 
 def _result(key, text):
@@ -186,7 +194,7 @@ class Uniformization(Parametrization):
     @property
     def layers(self):
         return {kind: layer._replace(vertices=2.0 * layer.vertices - [1.0, 1.0, 0.0])
-                for kind, layer in self._layers.items()}
+                for kind, layer in super().layers.items()}
 
 
 def _matrices(key, text):
@@ -204,147 +212,74 @@ for _class, _keys in ((Flattening, EUCLIDEAN_RESULTS),
         setattr(_class, _key, _make(_key, _text))
 
 
-def _arrays(vertices, faces):
-    """Checked vertices and faces: PyMeshLab does not check them."""
-    try:
-        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
-        given = numpy.asarray(faces)
-        faces = numpy.ascontiguousarray(given, dtype=numpy.int32)
-    except (TypeError, ValueError) as problem:
-        raise type(problem)(f"vertices and faces must be arrays of numbers: {problem}") from None
-    for name, array in (("vertices", vertices), ("faces", faces)):
-        if array.ndim != 2 or array.shape[1] != 3 or not len(array):
-            raise ValueError(f"{name} must have the shape (N, 3), not {array.shape}")
-    if (given != faces).any():
-        raise ValueError("faces must hold whole numbers, the indices of vertices")
-    if not (faces.min() >= 0 and faces.max() < len(vertices)):
-        raise ValueError(f"faces must hold indices from 0 to {len(vertices) - 1}")
-    return vertices, faces
-
-
-def load(path):
-    """A new MeshSet with the mesh in a file, of several meshes with all of them as one."""
-    path = os.fspath(path)
-    if not os.path.isfile(path):
-        raise FileNotFoundError(f"There is no file {path}")
-    new = pymeshlab.MeshSet()
-    together = path.lower().endswith((".glb", ".gltf"))
-    try:
-        new.load_new_mesh(path, **({"load_in_a_single_layer": True} if together else {}))
-        if new.mesh_number() > 1:
-            new.generate_by_merging_visible_meshes()
-    except pymeshlab.PyMeshLabException as problem:
-        pymeshlab.MeshSet().create_cube()  # as in apply()
-        raise OSError(" ".join(str(problem).split())) from None
-    return new
-
-
-def _mesh_set(mesh, faces):
-    """The MeshSet that is given, or a new one with the mesh."""
-    if faces is None:
-        if isinstance(mesh, pymeshlab.MeshSet):
-            return mesh
-        if isinstance(mesh, (str, os.PathLike)):
-            return load(mesh)
-        if hasattr(mesh, "to_geometry"):  # a scene of trimesh
-            mesh = mesh.to_geometry()
-    new = pymeshlab.MeshSet()
-    if faces is not None:
-        mesh = (mesh, faces)
-    elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
-        mesh = (mesh.vertices, mesh.faces)
-    if isinstance(mesh, pymeshlab.Mesh):
-        new.add_mesh(mesh)
-    elif isinstance(mesh, (tuple, list)) and len(mesh) == 2:
-        vertices, faces = _arrays(*mesh)
-        new.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_matrix=faces))
-    else:
-        raise TypeError("A mesh is a path, vertices and faces, an object that has them, or a Mesh or "
-                        f"MeshSet of PyMeshLab, not {type(mesh).__name__}")
-    return new
-
-
-def _require_faces(mesh_set):
-    """The host has words of its own for these, which name no remedy."""
-    if not mesh_set.mesh_number():
-        raise ValueError("The MeshSet holds no mesh: load one first")
-    if not mesh_set.current_mesh().face_number():
-        raise Refused("The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
-                      "first.")
-
-
-def _numbers(name, values):
-    """An array of the given numbers or truth values."""
-    array = numpy.asarray(sorted(values) if isinstance(values, (set, frozenset)) else values)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"{name} must hold numbers, not {values!r:.80}")
-    return array
-
-
-def _per_vertex(mesh_set, name, values):
-    """The name of a new attribute with the values: PyMeshLab cannot change those that are there."""
-    mesh = mesh_set.current_mesh()
-    if values.shape != (mesh.vertex_number(),):
-        raise ValueError(f"{name} must have a value for each of {mesh.vertex_number()} vertices, "
-                         f"not the shape {values.shape}")
-    for number in itertools.count():
-        attribute = f"ricci_{name}{number or ''}"
-        try:
-            mesh.vertex_custom_scalar_attribute_array(attribute)
-        except pymeshlab.PyMeshLabException:
-            mesh.add_vertex_custom_scalar_attribute(values, attribute)
-            return attribute
-
-
-def _mask(mesh_set, selected):
-    """Indices of vertices, or a truth value for each, as numbers 0 and 1."""
-    selected = _numbers("selected", selected)
-    if selected.dtype == bool:
-        return selected.astype(numpy.float64)
-    mask = numpy.zeros(mesh_set.current_mesh().vertex_number())
-    indices = selected.astype(numpy.int64)
-    if (indices != selected).any() or ((indices < 0) | (indices >= len(mask))).any():
-        raise ValueError(f"selected must hold indices of vertices, from 0 to {len(mask) - 1}, or a "
-                         "truth value for each vertex")
-    mask[indices] = 1.0
-    return mask
-
-
-def _solve(function, mesh, faces, selected, curvature, progress, parameters):
-    kind, description = _KINDS[function]
-    parameters = checked(function, description, parameters)
-    mesh_set = _mesh_set(mesh, faces)
-    _require_faces(mesh_set)
-    before = [layer.id() for layer in mesh_set]
+def with_keywords(given, selected, curvature, uv, selected_edges, selected_faces, parameters):
+    """Adds what the caller gives beside the mesh, and what that means unless it is said."""
+    count, arrays = len(given.vertices), given.arrays
     if selected is not None:
-        attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
-        apply(mesh_set, "compute_selection_by_condition_per_vertex",
-              condselect=f"({attribute} > 0.5)")
+        arrays["selected_vertices"] = _loading.mask("selected", selected, count, "vertices")
         parameters.setdefault("target_curvature", "Cones at selected vertices")
     if curvature is not None:
-        attribute = _per_vertex(mesh_set, "curvature",
-                                _numbers("curvature", curvature).astype(numpy.float64))
-        apply(mesh_set, "compute_scalar_by_function_per_vertex", q=attribute)
+        arrays["quality"] = _loading.per_vertex("curvature", curvature, count)
         parameters.setdefault("target_curvature", "From vertex quality")
-    try:
-        with teller(progress) as tell:
-            results = watched(
-                lambda: apply(mesh_set, description["python_name"], **parameters), tell)
-    except pymeshlab.PyMeshLabException as refusal:
-        text = str(refusal).split("Details: ")[-1].strip()
-        raise (ValueError if text.startswith("The value ") else Refused)(text) from None
-    return kind(mesh_set, results, before, bool(parameters.get("carry_texture")))
+    if uv is not None:
+        arrays["uv"] = _loading.per_corner(uv, len(given.faces))
+        parameters.setdefault("seams", "Existing texture seams")
+    if selected_edges is not None:
+        arrays["selected_edges"] = _loading.side_mask(selected_edges, given.faces, count)
+        parameters.setdefault("seams", "Selected edges")
+    if selected_faces is not None:
+        arrays["selected_faces"] = _loading.mask("selected_faces", selected_faces, len(given.faces),
+                                                 "faces")
+        parameters.setdefault("seams", "Border of selected faces")
 
 
-_KINDS = {"flatten": (Flattening, DESCRIPTIONS[0]), "uniformize": (Uniformization, DESCRIPTIONS[1])}
+def run_arrays(number, given, parameters, progress):
+    """Runs a filter on what is given, by the library. Outputs, log, warnings."""
+    texture = parameters.get("carry_texture", "")
+    pictures = given.read_pictures(bool(texture))
+    texts = {"name": given.name} if given.name else {}
+    with teller(progress) as tell:
+        outputs, log, messages = watched(
+            lambda listener: _library.run(number, parameters, given.arrays, pictures, texts, listener),
+            tell)
+    if texture:
+        from .files import write_picture
+        write_picture(texture, outputs.pop("picture"))
+    return outputs, given.messages + log, given.messages + messages
 
 
-def flatten(mesh, faces=None, *, selected=None, curvature=None, progress=None, **parameters):
-    return _solve("flatten", mesh, faces, selected, curvature, progress, parameters)
+def _solve(function, mesh, faces, progress, keywords, parameters):
+    number, kind = _KINDS[function]
+    parameters = checked(function, DESCRIPTIONS[number], parameters)
+    host = _loading.host_of(mesh) if faces is None else None
+    if host is not None:
+        result = kind(**host.solve(number, mesh, progress, keywords, parameters))
+    else:
+        given = _loading.given(mesh, faces)
+        with_keywords(given, **keywords, parameters=parameters)
+        outputs, log, messages = run_arrays(number, given, parameters, progress)
+        result = kind(outputs, log, messages, given.name, given.file,
+                      parameters.get("carry_texture", ""))
+    for message in result.messages:
+        warnings.warn(message, RicciWarning, stacklevel=3)
+    return result
 
 
-def uniformize(mesh, faces=None, *, selected=None, curvature=None, progress=None, **parameters):
-    return _solve("uniformize", mesh, faces, selected, curvature, progress, parameters)
+_KINDS = {"flatten": (0, Flattening), "uniformize": (1, Uniformization)}
+
+
+def flatten(mesh, faces=None, *, selected=None, curvature=None, uv=None, selected_edges=None,
+            selected_faces=None, progress=None, **parameters):
+    return _solve("flatten", mesh, faces, progress, dict(
+        selected=selected, curvature=curvature, uv=uv, selected_edges=selected_edges,
+        selected_faces=selected_faces), parameters)
+
+
+def uniformize(mesh, faces=None, *, selected=None, curvature=None, uv=None, selected_edges=None,
+               selected_faces=None, progress=None, **parameters):
+    return _solve("uniformize", mesh, faces, progress, dict(
+        selected=selected, curvature=curvature, uv=uv, selected_edges=selected_edges,
+        selected_faces=selected_faces), parameters)
 
 
 _INPUT = """
@@ -356,17 +291,26 @@ selected : indices of vertices, or a truth value for each: the cones, or the cor
     target_curvature then is 'Cones at selected vertices', unless it is given
 curvature : target curvature of each vertex, in radians; target_curvature then is 'From vertex
     quality', unless it is given
+uv : (F, 3, 2), the texture coordinates that the mesh has; seams then is 'Existing texture seams',
+    unless it is given
+selected_edges : pairs of vertices, or a truth value for each side of each face (F, 3); seams then is
+    'Selected edges', unless it is given
+selected_faces : indices of faces, or a truth value for each; seams then is 'Border of selected
+    faces', unless it is given
 progress : True for a bar (of tqdm, where it is installed), or a function that is called with the
     share of the work that is done and the name of the step; what it raises ends the run, as Ctrl-C
     does, and the mesh stays as it is
+
 """
 _own = [inspect.Parameter("mesh", inspect.Parameter.POSITIONAL_OR_KEYWORD),
         inspect.Parameter("faces", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
         *(inspect.Parameter(_name, inspect.Parameter.KEYWORD_ONLY, default=None)
-          for _name in ("selected", "curvature", "progress"))]
+          for _name in ("selected", "curvature", "uv", "selected_edges", "selected_faces",
+                        "progress"))]
 for _function, _description, _what in zip(
         (flatten, uniformize), DESCRIPTIONS,
-        ("Conformal map of a mesh into the Euclidean plane. A Flattening; throws Refused.",
-         "Hyperbolic metric of a mesh, in the Poincaré disk. A Uniformization; throws Refused.")):
+        ("UV-unwraps a mesh: a conformal map into the plane. Returns a Flattening; raises Refused.",
+         "Hyperbolic metric of a mesh, in the Poincaré disk. Returns a Uniformization; raises "
+         "Refused.")):
     _function.__doc__ = f"{_what}{_INPUT}{documentation(_description)}\n"
     _function.__signature__ = signature(_description, *_own)

@@ -5,11 +5,14 @@ import json
 import os
 import signal
 import sys
+import warnings
 
 import numpy
 
 from ._batch import in_words, partial_folder
-from ._parametrize import Refused, flatten, kind_of, load, uniformize
+from ._errors import RicciWarning
+from ._loading import from_path
+from ._parametrize import Refused, flatten, uniformize
 
 
 def die_with_parent():
@@ -21,16 +24,6 @@ def die_with_parent():
         pass
 
 
-def save_layers(documents, stem):
-    """The new layers: of mesh.ply, 'Flat mesh' is mesh.flat.ply."""
-    current = documents.current_mesh_id()
-    layers = [(mesh.id(), kind_of(mesh)) for mesh in documents if mesh.id() != current]
-    for number, kind in layers:
-        documents.set_current_mesh(number)
-        documents.save_current_mesh(f"{stem}.{kind}.ply")
-    documents.set_current_mesh(current)
-
-
 def save(result, target):
     """Complete or not at all, with what belongs to the file, such as materials of OBJ. The names
     of the files."""
@@ -38,7 +31,8 @@ def save(result, target):
     partial = partial_folder(target, os.getpid())
     os.makedirs(partial)
     result.save(os.path.join(partial, name))
-    save_layers(result.mesh_set, os.path.join(partial, os.path.splitext(name)[0]))
+    for kind in result.layers:  # of mesh.ply, 'Flat mesh' is mesh.flat.ply
+        result.save_layer(kind, os.path.join(partial, f"{os.path.splitext(name)[0]}.{kind}.ply"))
     written = sorted(os.listdir(partial), key=lambda file: (file == name, file))
     for file in written:
         os.replace(os.path.join(partial, file), os.path.join(folder, file))
@@ -59,16 +53,18 @@ def main():
     solve = uniformize if job["hyperbolic"] else flatten
     answer = {"files": []}
     try:
-        mesh = load(job["mesh"])
+        mesh = from_path(job["mesh"])
     except OSError as problem:
         answer.update(state="unreadable", reason=str(problem))
     else:
         try:
             os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
+            warnings.simplefilter("ignore", RicciWarning)  # they are in the answer
             result = solve(mesh, **job["parameters"])
             answer["files"] = save(result, job["target"])
-            answer.update(state="solved", results={key: numpy.asarray(value).tolist()
-                                                   for key, value in result.results.items()})
+            answer.update(state="solved", messages=result.messages, faces=len(result.faces),
+                          results={key: numpy.asarray(value).tolist()
+                                   for key, value in result.results.items()})
         except Refused as refusal:
             answer.update(state="refused", reason=" ".join(str(refusal).split()))
         except (OSError, ValueError, ImportError) as problem:

@@ -1,57 +1,48 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin's library, and runs of it that say how far they are and that Ctrl-C ends."""
+"""Runs that say how far they are, and that Ctrl-C ends."""
 
 import contextlib
-import ctypes
-import os
 import sys
 import threading
 
-PLUGIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libfilter_ricci.so")
-LIBRARY = ctypes.CDLL(PLUGIN)
-
-_LISTENER = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_int, ctypes.c_char_p)
-_listen = LIBRARY.filter_ricci_listen
-_listen.restype = None
-_listen.argtypes = [_LISTENER]
-
 
 def watched(run, tell):
-    """What run() returns or raises. It has a thread of its own, because Python gives signals to one
-    that waits; tell(fraction, what) is called in this one. What it raises, and Ctrl-C, ends the run."""
+    """What run(listener) returns or raises. It has a thread of its own, because Python gives signals
+    to a thread that waits; tell(fraction, what) is called in this one. What it raises, and Ctrl-C,
+    ends the run: listener(fraction, what), which the run calls, then returns False."""
     outcome, ended = {}, threading.Event()
-    latest, goes_on = (0, b"Starting"), True
+    latest, goes_on = (0.0, "Starting"), True
 
-    def hear(percent, what):
+    def listener(fraction, what):
         nonlocal latest
-        latest = percent, what
+        latest = fraction, what
         return goes_on
 
     def work():
-        listener = _LISTENER(hear)
-        _listen(listener)
         try:
-            outcome["value"] = run()
+            outcome["value"] = run(listener)
         except BaseException as problem:  # pylint: disable=broad-except
             outcome["problem"] = problem
         finally:
-            _listen(_LISTENER())
             ended.set()
 
-    thread = threading.Thread(target=work, name="pymeshlab_ricci")
+    thread = threading.Thread(target=work, name="ricciflow")
     thread.start()
     try:
         while not ended.wait(0.1):
-            tell(latest[0] / 100, latest[1].decode())
+            tell(*latest)
     except BaseException:
         goes_on = False
         raise
     finally:
         thread.join()
-    if "problem" in outcome:
-        raise outcome["problem"] from None
-    tell(1.0, "Done")
-    return outcome["value"]
+    try:
+        if "problem" in outcome:
+            raise outcome["problem"] from None
+        tell(1.0, "Done")
+        return outcome["value"]
+    finally:
+        outcome.clear()  # an exception holds this frame, which must not hold the exception
 
 
 def silent(fraction, what):
