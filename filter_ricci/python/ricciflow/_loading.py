@@ -145,12 +145,16 @@ def _as_bytes(colours):
 def _from_file(path):
     from . import files
     try:
-        mesh = files.read(path)
+        return _of_file(files.read(path))
     except files.FileError as problem:
         raise OSError(str(problem)) from None
+
+
+def _of_file(mesh):
+    """What a run may read of a MeshFile."""
     face_colours = mesh.face_colours if mesh.face_colours is not None else mesh.material_colours
     uv = None if mesh.uv is None else numpy.nan_to_num(mesh.uv)
-    new = Given(mesh.vertices, mesh.faces, os.path.basename(path), faux=mesh.diagonals, uv=uv,
+    new = Given(mesh.vertices, mesh.faces, mesh.path.name, faux=mesh.diagonals, uv=uv,
                 picture_of_face=mesh.uv_picture, vertex_colors=_as_bytes(mesh.vertex_colours),
                 face_colors=_as_bytes(face_colours))
     new.pictures, new.file, new.messages = mesh.pictures, mesh, list(mesh.messages)
@@ -182,6 +186,9 @@ def given(mesh, faces):
             return mesh
         if isinstance(mesh, (str, os.PathLike)):
             return from_path(mesh)
+        files = sys.modules.get(f"{__package__}.files")
+        if files is not None and isinstance(mesh, files.MeshFile):
+            return _of_file(mesh)
         if hasattr(mesh, "to_geometry"):  # a scene of trimesh
             mesh = mesh.to_geometry()
         if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):

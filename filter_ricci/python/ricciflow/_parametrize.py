@@ -243,8 +243,8 @@ def run_arrays(number, given, parameters, progress):
             lambda listener: _library.run(number, parameters, given.arrays, pictures, texts, listener),
             tell)
     if texture:
-        from .files import write_picture
-        write_picture(texture, outputs.pop("picture"))
+        from .files import _pictures
+        _pictures.write(texture, outputs.pop("picture"))
     return outputs, given.messages + log, given.messages + messages
 
 

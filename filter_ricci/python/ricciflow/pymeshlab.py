@@ -152,11 +152,12 @@ class _Texture:
         self.name, self._image = name, image
 
     def read(self):
-        from .files import read_picture
+        from .files import _pictures
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")
             self._image.save(path)
-            return read_picture(path)
+            with open(path, "rb") as picture:
+                return _pictures.decode(picture.read(), self.name)
 
 
 def given(mesh):
