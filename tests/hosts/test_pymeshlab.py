@@ -20,7 +20,7 @@ import xml.etree.ElementTree
 
 import common
 import meshes
-from pymeshlab_host import numpy, pymeshlab, load, mesh_set, run, select
+from pymeshlab_host import BY_ARRAYS, numpy, pymeshlab, load, mesh_set, run, select
 
 
 def loaded(mesh):
@@ -181,7 +181,7 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual((seen.max(axis=0) - seen.min(axis=0)).max() / size, 1.0, delta=1e-3)
         self.assertGreater(seen[:, 0].min(), mesh[:, 0].max())
         self.assertLess(seen[:, 0].min(), mesh[:, 0].max() + 0.2 * size)
-        self.assertFalse(flat.has_vertex_color())
+        self.assertEqual(flat.has_vertex_color(), BY_ARRAYS)  # all that programs make are white
 
     def test_colours_of_an_earlier_run_go(self):
         documents = mesh_set(meshes.torus())
@@ -266,6 +266,7 @@ class Results(unittest.TestCase):
             self.assertTrue(numpy.array_equal(*(d.current_mesh().wedge_tex_coord_matrix()
                                                 for d in documents)))
 
+    @unittest.skipIf(BY_ARRAYS, "PyMeshLab gives no program the means, as a warning says")
     def test_flat_layer_has_the_textures(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "torus.ply")
@@ -542,7 +543,7 @@ class Hyperbolic(unittest.TestCase):
         self.assertTrue(returned["converged"])
         self.assertLess(returned["max_curvature_error"], 1e-8)
         self.assertLess(returned["relation_error"], 1e-8)
-        disk = 2 * documents.mesh(0).wedge_tex_coord_matrix() - 1
+        disk = 2 * documents.current_mesh().wedge_tex_coord_matrix() - 1
         self.assertLess(numpy.hypot(disk[:, 0], disk[:, 1]).max(), 1.0)
         return returned
 

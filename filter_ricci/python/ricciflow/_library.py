@@ -61,11 +61,19 @@ def _load():
     return library
 
 
+def _described():
+    """Both filters, each a dictionary with name, python_name, info and parameters."""
+    described = json.loads(LIBRARY.ricci_description().decode())
+    for parameter in (p for description in described for p in description["parameters"]):
+        if parameter["type"] == "float":
+            parameter["default"] = float(parameter["default"])
+    return described
+
+
 LIBRARY = _load()
 VERSION, SOLVER = (function().decode() for function in (LIBRARY.ricci_library_version,
                                                         LIBRARY.ricci_solver))
-DESCRIPTIONS = json.loads(LIBRARY.ricci_description().decode())
-"""Both filters, each a dictionary with name, python_name, info and parameters."""
+DESCRIPTIONS = _described()
 
 
 def _to_array(values):

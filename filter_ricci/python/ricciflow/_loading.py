@@ -7,15 +7,16 @@ import sys
 
 import numpy
 
-OWN_ENDINGS = (".3mf", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
-# Of the formats that PyMeshLab loads too, those that hold faces.
-OTHER_ENDINGS = tuple(".3ds .asc .bre .ctm .dae .fbx .ptx .qobj .vmi .wrl .x3d .x3dv".split())
+# Of the formats that PyMeshLab or trimesh read, those that hold faces.
+OTHER_ENDINGS = tuple(".3ds .3mf .asc .bre .ctm .dae .fbx .glb .gltf .off .ptx .qobj .stl .vmi .wrl .x3d "
+                      ".x3dv".split())
 
 
 def mesh_endings():
     """Those of the files that can be read here."""
+    from . import files
     has_other = any(importlib.util.find_spec(name) for name in ("pymeshlab", "trimesh"))
-    return OWN_ENDINGS + (OTHER_ENDINGS if has_other else ())
+    return sorted({*files.READS, *(OTHER_ENDINGS if has_other else ())})
 
 
 class Given:
@@ -127,27 +128,23 @@ def from_path(path):
     path = os.fspath(path)
     if not os.path.isfile(path):
         raise FileNotFoundError(f"There is no file {path}")
-    if path.lower().endswith(OWN_ENDINGS):
-        return _from_file(path)
+    from . import files
+    if path.lower().endswith(files.READS):
+        try:
+            return _of_file(files.read(path))
+        except files.FileError as problem:
+            raise OSError(str(problem)) from None
     if importlib.util.find_spec("pymeshlab") is not None:
         from . import pymeshlab as host
         return host.given(host.load(path).current_mesh())
     if importlib.util.find_spec("trimesh") is not None:
         return _by_trimesh(path)
-    raise OSError(f"{path}: files that end in {', '.join(OWN_ENDINGS)} are read; others with PyMeshLab "
+    raise OSError(f"{path}: files that end in {', '.join(files.READS)} are read; others with PyMeshLab "
                   "or trimesh (pip install pymeshlab)")
 
 
 def _as_bytes(colours):
     return None if colours is None else (255.0 * numpy.clip(colours, 0.0, 1.0) + 0.5).astype(numpy.uint8)
-
-
-def _from_file(path):
-    from . import files
-    try:
-        return _of_file(files.read(path))
-    except files.FileError as problem:
-        raise OSError(str(problem)) from None
 
 
 def _of_file(mesh):

@@ -16,7 +16,7 @@ from ._filters import DESCRIPTIONS, checked, documentation, signature
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
 from ._watched import teller, watched
 
-FORMATS = (".ply", ".obj", ".glb", ".gltf", ".3mf")  # that save() writes
+FORMATS = (".ply", ".obj", ".glb", ".gltf")  # that save() writes
 
 
 class Layer(typing.NamedTuple):
@@ -109,8 +109,7 @@ class Parametrization:
         if self._file is not None and len(self.faces) != len(file.faces):
             refined = (self.vertices, self.faces, self._origin, self._weights(file))
         try:
-            said = file.save(path, self.uv, self._texture or None, refined=refined,
-                             quality=self.quality)
+            said = file.save(path, self.uv, self._texture or None, refined=refined)
         except files.FileError as problem:
             raise OSError(str(problem)) from None
         for sentence in said:

@@ -5,8 +5,8 @@ and uniformize(). Importing this module imports PyMeshLab and adds the methods.
 Where this package has the plugin for the PyMeshLab that is installed (Linux, 2025.7), the filters run in
 PyMeshLab. Elsewhere the library runs on the arrays of the mesh, and the mesh gets what comes of it: where
 its triangles stay, in place, by way of attributes 'ricci_given...' that PyMeshLab cannot remove again; a
-refined mesh is a new layer in place of the old one. `USES_PLUGIN` says which; a program may set it to
-False.
+refined mesh, or one of polygons that a program has made, is a new layer in place of the old one, and a
+warning says what is lost. `USES_PLUGIN` says which; a program may set it to False.
 
     import pymeshlab
     import ricciflow.pymeshlab
@@ -88,11 +88,11 @@ _listen = _load_plugin()
 USES_PLUGIN = _listen is not None
 
 
-def apply(mesh_set, name, **parameters):
+def apply(mesh_set, filter_name, /, **parameters):
     """apply_filter. After a failure PyMeshLab 2025.7 keeps a pointer to the log of the MeshSet, and
     later loads write there even if the MeshSet is gone. A filter that succeeds clears it."""
     try:
-        return mesh_set.apply_filter(name, **parameters)
+        return mesh_set.apply_filter(filter_name, **parameters)
     except Exception:
         pymeshlab.MeshSet().create_cube()
         raise
@@ -161,8 +161,8 @@ class _Texture:
 
 
 def given(mesh):
-    """What a run may read of a Mesh. PyMeshLab keeps to itself which edges are selected, and which of
-    several textures a face shows."""
+    """What a run may read of a Mesh, but for selected edges. PyMeshLab keeps to itself which of several
+    textures a face shows."""
     if not mesh.is_compact():
         mesh.compact()
     faces = numpy.ascontiguousarray(mesh.face_matrix(), dtype=numpy.int32)
@@ -183,6 +183,25 @@ def given(mesh):
         matrix=mesh.transform_matrix())
     new.pictures = [_Texture(*texture) for texture in mesh.textures().items()]
     return new
+
+
+def _selected_edges(mesh_set):
+    """(F, 3) bool. PyMeshLab tells files alone: the flags of the faces of a PLY."""
+    count = mesh_set.current_mesh().face_number()
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "flags.ply")
+        mesh_set.save_current_mesh(path, binary=True, save_face_flag=True, **{
+            "save_" + what: False for what in ("textures", "vertex_color", "vertex_normal",
+                                               "vertex_quality", "vertex_flag", "vertex_radius",
+                                               "face_color", "face_quality", "wedge_texcoord")})
+        with open(path, "rb") as source:
+            data = source.read()
+    rows = numpy.dtype([("count", "u1"), ("corners", "<i4", 3), ("flags", "<i4")])
+    flags = numpy.frombuffer(data[len(data) - count * rows.itemsize:], rows)["flags"]
+    return (flags[:, None] >> _SELECTED_EDGE & 1).astype(bool)
+
+
+_SELECTED_EDGE = numpy.array([15, 16, 17])  # bits of vcglib's flags
 
 
 def _new_attribute(has, part):
@@ -262,17 +281,19 @@ def _replace_current(mesh_set, outputs):
     mesh_set.set_current_mesh(made)
     apply(mesh_set, "compute_normal_per_face")
     apply(mesh_set, "compute_normal_per_vertex")
-    return (f"The refined mesh is the layer {made}, in place of the layer {number}: selections, textures "
-            "and attributes of that one are gone, because PyMeshLab gives no program the means to "
-            "carry them over.")
+    return (f"The new mesh is the layer {made}, in place of the layer {number}: selections, polygons, "
+            "textures and attributes of that one are gone, because PyMeshLab gives no program the means "
+            "to carry them over.")
 
 
-def _add_layers(mesh_set, layers, label):
+def _add_layers(mesh_set, layers, label, texture=""):
     current = mesh_set.current_mesh_id() if mesh_set.mesh_number() else None
     for kind, part in layers.items():
         mesh_set.add_mesh(_as_mesh(part), f"{LABELS[kind]} {label}")
         if "matrix" in part:
             apply(mesh_set, "set_matrix", transformmatrix=part["matrix"], freeze=False)
+        if texture and "uv" in part:
+            apply(mesh_set, "set_texture_per_mesh", textname=texture)
     if current is not None:
         mesh_set.set_current_mesh(current)
 
@@ -329,26 +350,38 @@ def _outputs_of(mesh_set, results, before):
 
 # Runs
 
+def _stays(mesh, outputs):
+    """Whether the triangles are as they were, and PyMeshLab can write on them: its functions of faces
+    read beyond the end of the attribute that the constructor of polygons makes."""
+    try:
+        mesh.face_custom_scalar_attribute_array("poly_birth_faces")
+        return False
+    except pymeshlab.PyMeshLabException:
+        return len(outputs["faces"]) == mesh.face_number()
+
+
 def _run_arrays(number, mesh_set, given_mesh, parameters, progress):
     """By the library; the current mesh then is what comes of it."""
     if parameters.get("seams") == "Selected edges" and "selected_edges" not in given_mesh.arrays:
-        raise Refused("seams is 'Selected edges', and PyMeshLab gives no program the edges that are "
-                      "selected: give flatten() the edges as selected_edges.")
+        given_mesh.arrays["selected_edges"] = _selected_edges(mesh_set)
     try:
         outputs, log, messages = run_arrays(number, given_mesh, parameters, progress)
     except _errors.Refused as problem:
         raise Refused(str(problem)) from None
     except ValueError as problem:
         raise InvalidValue(str(problem)) from None
-    label = mesh_set.current_mesh().label()
-    if len(outputs["faces"]) == len(given_mesh.faces):
+    mesh, texture = mesh_set.current_mesh(), parameters.get("carry_texture", "")
+    label = mesh.label()
+    if parameters.get("flat_layer") and mesh.textures() and not texture:
+        messages.append("The flat layer has no texture: PyMeshLab gives no program the means to put that "
+                        "of the mesh on it.")
+    if _stays(mesh, outputs):
         _write_in_place(mesh_set, outputs, parameters.get("colorize", False))
     else:
         messages.append(_replace_current(mesh_set, outputs))
-    texture = parameters.get("carry_texture", "")
     if texture:
         apply(mesh_set, "set_texture_per_mesh", textname=texture)
-    _add_layers(mesh_set, layers_of(outputs), label)
+    _add_layers(mesh_set, layers_of(outputs), label, texture)
     return outputs, log, messages
 
 
