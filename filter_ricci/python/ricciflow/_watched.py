@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs that say how far they are, and that Ctrl-C ends."""
 
+import _thread
 import contextlib
 import sys
-import threading
+import time
+
+PATIENCE = 10.0  # seconds that a thread may take to begin
 
 
 def watched(run, tell):
     """What run(listener) returns or raises. It has a thread of its own, because Python gives signals
     to a thread that waits; tell(fraction, what) is called in this one. What it raises, and Ctrl-C,
     ends the run: listener(fraction, what), which the run calls, then returns False."""
-    outcome, ended = {}, threading.Event()
+    outcome, running, has_begun = {}, _thread.allocate_lock(), False
     latest, goes_on = (0.0, "Starting"), True
 
     def listener(fraction, what):
@@ -19,23 +22,31 @@ def watched(run, tell):
         return goes_on
 
     def work():
+        nonlocal has_begun
+        has_begun = True
         try:
+            if not goes_on:
+                return
             outcome["value"] = run(listener)
         except BaseException as problem:  # pylint: disable=broad-except
             outcome["problem"] = problem
         finally:
-            ended.set()
+            running.release()
 
-    thread = threading.Thread(target=work, name="ricciflow")
-    thread.start()
+    # Not threading.Thread, which waits for ever for a thread that has no memory to begin with.
+    running.acquire()
+    _thread.start_new_thread(work, ())
+    begun_by = time.monotonic() + PATIENCE
     try:
-        while not ended.wait(0.1):
+        while not running.acquire(timeout=0.1):
+            if not has_begun and time.monotonic() > begun_by:
+                raise MemoryError("There is no memory for the thread of the run")
             tell(*latest)
     except BaseException:
         goes_on = False
+        if has_begun:
+            running.acquire()
         raise
-    finally:
-        thread.join()
     try:
         if "problem" in outcome:
             raise outcome["problem"] from None
