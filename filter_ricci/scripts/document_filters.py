@@ -211,10 +211,7 @@ from typing import Any, Literal, Union
 import pymeshlab
 from pymeshlab import Mesh as Mesh
 
-from . import EUCLIDEAN as EUCLIDEAN, HYPERBOLIC as HYPERBOLIC
-from . import Flattening as Flattening, Layer as Layer, Parametrization as Parametrization
-from . import Refused as _Refused, RicciWarning as RicciWarning
-from . import Uniformization as Uniformization, flatten as flatten, uniformize as uniformize
+from . import Refused as _Refused
 
 USES_PLUGIN: bool
 

@@ -3,8 +3,14 @@
 
 import warnings
 
-from ricciflow.pymeshlab import *  # noqa: F401,F403
-from ricciflow.pymeshlab import __all__, __version__  # noqa: F401
+from ricciflow import *  # noqa: F401,F403
+from ricciflow import __all__, __version__  # noqa: F401
+
+try:
+    from ricciflow.pymeshlab import Mesh, MeshSet  # noqa: F401
+    __all__ = [*__all__, "Mesh", "MeshSet"]
+except ImportError:  # PyMeshLab is not installed
+    pass
 
 warnings.warn("pymeshlab_ricci is called ricciflow now: import ricciflow, and ricciflow.pymeshlab "
               "for the methods of MeshSet. The next version has the new name only.",

@@ -223,7 +223,7 @@ def folder(parser, options):
                      marks[name], [_batch.record_path(out, stem)
                                    for stem in (name, os.path.splitext(name)[0])])
             for name in names if not _batch.is_done(
-                _batch.read_record(records[name]), marks[name], options.retry)]
+                _batch.read_record(records[name]), name, marks[name], options.retry)]
     if not options.quiet:
         print(f"{len(names)} {'mesh' if len(names) == 1 else 'meshes'}, {len(names) - len(jobs)} done "
               f"before, {len(jobs)} to run", flush=True)

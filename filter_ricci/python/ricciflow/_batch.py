@@ -64,18 +64,18 @@ def mark_of(mesh, common):
 
 def stems(names, source, out, ending):
     """For each mesh the name that its files in OUT begin with: its own without the ending, or the whole
-    of it where a result would replace it, or another mesh or its files have that name, or a file
+    of it where a result would replace it, or another mesh has a name that begins so, or a file
     that is no record of ours is in the place of one."""
-    beginnings = collections.Counter()
-    for name in names:
+    taken = collections.Counter()
+    for name in map(os.path.normcase, names):
         folder, file = os.path.split(name)
         parts = file.split(".")
-        beginnings.update(os.path.join(folder, ".".join(parts[:k])) for k in range(1, len(parts)))
+        taken.update(os.path.join(folder, ".".join(parts[:k])) for k in range(1, len(parts) + 1))
     found = {}
     for name in names:
         short = os.path.splitext(name)[0]
-        record = os.path.join(out, short + ".json")
-        meets = (beginnings[short] > 1 or
+        record = record_path(out, short)
+        meets = (taken[os.path.normcase(short)] > 1 or
                  os.path.join(out, short + ending) == os.path.join(source, name) or
                  os.path.exists(record) and "state" not in read_record(record))
         found[name] = name if meets else short
@@ -119,8 +119,8 @@ def in_words(problem):
     return f"{problem.filename}: {problem.strerror}" if named else str(problem)
 
 
-def is_done(record, mark, retry):
-    if record.get("fingerprint") != mark:
+def is_done(record, name, mark, retry):
+    if (record.get("mesh"), record.get("fingerprint")) != (name, mark):
         return False
     return record.get("state") in (FINAL if retry else FINAL + FAILED)
 

@@ -10,9 +10,9 @@ import warnings
 import numpy
 
 from ._batch import in_words, partial_folder
-from ._errors import RicciWarning
+from ._errors import RicciWarning, Refused
 from ._loading import from_path
-from ._parametrize import Refused, flatten, uniformize
+from ._parametrize import flatten, uniformize
 
 
 def die_with_parent():
@@ -59,10 +59,12 @@ def main():
     else:
         try:
             os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
-            warnings.simplefilter("ignore", RicciWarning)  # they are in the answer
-            result = solve(mesh, **job["parameters"])
-            answer["files"] = save(result, job["target"])
-            answer.update(state="solved", messages=result.messages, faces=len(result.faces),
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always", RicciWarning)
+                result = solve(mesh, **job["parameters"])
+                answer["files"] = save(result, job["target"])
+            answer.update(state="solved", messages=[str(one.message) for one in said
+                                                    if issubclass(one.category, RicciWarning)],
                           results={key: numpy.asarray(value).tolist()
                                    for key, value in result.results.items()})
         except Refused as refusal:

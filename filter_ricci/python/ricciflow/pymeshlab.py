@@ -28,17 +28,15 @@ import numpy
 import pymeshlab
 from pymeshlab import Mesh, MeshSet
 
-from . import (EUCLIDEAN, HYPERBOLIC, Flattening, Layer, Parametrization, RicciWarning,
-               Uniformization, __version__, flatten, uniformize)
 from . import _errors, _loading
-from ._filters import DESCRIPTIONS, checked, documentation, plain, signature
+from ._errors import RicciWarning
+from ._filters import DESCRIPTIONS, EUCLIDEAN, checked, documentation, plain, signature
 from ._library import WARNING
 from ._loading import Given
 from ._parametrize import layers_of, results_of, run_arrays, with_keywords
 from ._watched import silent, teller, watched
 
-__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Layer", "Mesh", "MeshSet", "Parametrization",
-           "Refused", "RicciWarning", "Uniformization", "flatten", "uniformize"]
+__all__ = ["Mesh", "MeshSet", "Refused", "USES_PLUGIN"]
 
 PLUGIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libfilter_ricci.so")
 PLUGIN_VERSION = "2025.7"  # of PyMeshLab
@@ -270,15 +268,16 @@ def _as_mesh(part):
 def _replace_current(mesh_set, outputs):
     """A new layer in place of the current one, whose triangles have changed."""
     old = mesh_set.current_mesh()
-    new, number, matrix = _as_mesh(outputs), old.id(), old.transform_matrix()
+    new, number, label, matrix = _as_mesh(outputs), old.id(), old.label(), old.transform_matrix()
     for key, name in ATTRIBUTES.items():
         new.add_vertex_custom_scalar_attribute(numpy.ascontiguousarray(outputs[key]), name)
-    mesh_set.add_mesh(new, old.label())
+    mesh_set.add_mesh(new)
     made = mesh_set.current_mesh_id()
     apply(mesh_set, "set_matrix", transformmatrix=matrix, freeze=False)
     mesh_set.set_current_mesh(number)
     mesh_set.delete_current_mesh()
     mesh_set.set_current_mesh(made)
+    mesh_set.current_mesh().set_label(label)
     apply(mesh_set, "compute_normal_per_face")
     apply(mesh_set, "compute_normal_per_vertex")
     return (f"The new mesh is the layer {made}, in place of the layer {number}: selections, polygons, "
