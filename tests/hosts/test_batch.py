@@ -329,7 +329,7 @@ class Batch(unittest.TestCase):
                 ("nothing", "out", (), 2, "There is no file or folder"),
                 (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is no whole number"),
                 (self.meshes, path, (), 1, "hill.ply: File exists"),
-                (path, "out.stl", (), 2, "OUT must end in .ply or .obj"),
+                (path, "out.stl", (), 2, "OUT must end in .obj or .ply"),
                 (path, os.path.join(path, "out.ply"), (), 1, "hill.ply"),
                 (path, "out.ply", ("--target-curvature", "Disc"), 2, "did you mean 'Disk'"),
                 (path, "out.ply", ("--cone-distortion", "-1"), 1, "failed: .* cannot be used")):

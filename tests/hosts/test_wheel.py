@@ -761,7 +761,7 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(error, pattern):
                 flatten(good, **slip)
         result = flatten(good)
-        for path, error, pattern in (("hill.stl", ValueError, "ends in .ply or .obj or .glb"),
+        for path, error, pattern in (("hill.stl", ValueError, "ends in .obj or .ply or .glb"),
                                      ("no such folder/hill.ply", FileNotFoundError, "no such folder")):
             with self.assertRaisesRegex(error, pattern):
                 result.save(path)

@@ -30,7 +30,7 @@ import sys
 from . import __version__, _batch
 from ._filters import DESCRIPTIONS, choice, plain
 from ._loading import mesh_endings
-from ._parametrize import FORMATS
+from .files import WRITES
 
 
 def chosen(names):
@@ -80,8 +80,8 @@ def parse(arguments):
                     description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--version", action="version", version=f"ricciflow {__version__}")
     parser.add_argument("mesh", metavar="IN", help="a mesh, or a folder, with everything below it")
-    parser.add_argument("out", metavar="OUT", help=f"a file ({', '.join(FORMATS)}), or a folder")
-    parser.add_argument("--format", choices=[ending[1:] for ending in FORMATS], default="ply",
+    parser.add_argument("out", metavar="OUT", help=f"a file ({', '.join(WRITES)}), or a folder")
+    parser.add_argument("--format", choices=[ending[1:] for ending in WRITES], default="ply",
                         help="of the results of a folder. Default: ply")
     parser.add_argument("--hyperbolic", action="store_true",
                         help="the hyperbolic filter, whose parameters --hyperbolic --help shows")
@@ -259,8 +259,8 @@ def solve(parser, options):
         return folder(parser, options)
     if not os.path.isfile(options.mesh):
         parser.error(f"There is no file or folder {options.mesh}.")
-    if not options.out.lower().endswith(FORMATS):
-        parser.error(f"OUT must end in {' or '.join(FORMATS)}.")
+    if not options.out.lower().endswith(WRITES):
+        parser.error(f"OUT must end in {' or '.join(WRITES)}.")
     return one_mesh(options)
 
 

@@ -14,7 +14,6 @@ import csv
 import hashlib
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -113,6 +112,17 @@ def clear(path):
             os.remove(os.path.join(folder, file))
 
 
+def remove_parts(target):
+    """What a process that was ended has left: a mesh without its record, and the names under which
+    files are written before they get their own."""
+    folder, name = os.path.split(target)
+    hidden = f".{os.path.splitext(name)[0]}."
+    with contextlib.suppress(OSError):
+        for file in os.listdir(folder):
+            if file == name or file.startswith(hidden):
+                os.remove(os.path.join(folder, file))
+
+
 def in_words(problem):
     """What an error says; one of the system names its file first."""
     named = isinstance(problem, OSError) and problem.filename
@@ -123,11 +133,6 @@ def is_done(record, name, mark, retry):
     if (record.get("mesh"), record.get("fingerprint")) != (name, mark):
         return False
     return record.get("state") in (FINAL if retry else FINAL + FAILED)
-
-
-def partial_folder(target, pid):
-    """Where a process writes what it then moves to its place."""
-    return os.path.join(os.path.dirname(os.path.abspath(target)), f".part{pid}")
 
 
 class Processes:
@@ -180,12 +185,10 @@ def run_one(job, processes=None):
         record.update(state="timeout", reason=f"no result after {job['timeout']:g} s")
     finally:
         processes.end(process)
-        shutil.rmtree(partial_folder(job["target"], process.pid), ignore_errors=True)
     record["seconds"] = round(time.monotonic() - started, 3)
     if job["record"] and not processes.stopped:
         if record["state"] != "solved":
-            with contextlib.suppress(OSError):  # of a process that ended after it was written
-                os.remove(job["target"])
+            remove_parts(job["target"])
         write_record(job["record"], record)
     return record
 

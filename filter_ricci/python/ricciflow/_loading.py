@@ -8,8 +8,7 @@ import sys
 import numpy
 
 # Of the formats that PyMeshLab or trimesh read, those that hold faces.
-OTHER_ENDINGS = tuple(".3ds .3mf .asc .bre .ctm .dae .fbx .glb .gltf .off .ptx .qobj .stl .vmi .wrl .x3d "
-                      ".x3dv".split())
+OTHER_ENDINGS = tuple(".3ds .asc .bre .ctm .dae .fbx .ptx .qobj .vmi .wrl .x3d .x3dv".split())
 
 
 def mesh_endings():
@@ -136,7 +135,8 @@ def from_path(path):
             raise OSError(str(problem)) from None
     if importlib.util.find_spec("pymeshlab") is not None:
         from . import pymeshlab as host
-        return host.given(host.load(path).current_mesh())
+        documents = host.load(path)  # which its mesh does not keep alive
+        return host.given(documents.current_mesh())
     if importlib.util.find_spec("trimesh") is not None:
         return _by_trimesh(path)
     raise OSError(f"{path}: files that end in {', '.join(files.READS)} are read; others with PyMeshLab "

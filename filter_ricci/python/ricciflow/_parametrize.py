@@ -16,9 +16,6 @@ from ._filters import DESCRIPTIONS, checked, documentation, signature
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
 from ._watched import teller, watched
 
-FORMATS = (".ply", ".obj", ".glb", ".gltf")  # that save() writes
-
-
 class Layer(typing.NamedTuple):
     """A new layer: vertices (V, 3) float64, and what joins them."""
 
@@ -94,16 +91,17 @@ class Parametrization:
     def save(self, path):
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture has
         drawn. What was in the file that the mesh is from stays; a PLY file gets the quality too."""
+        from . import files
         path = os.fspath(path)
-        if os.path.splitext(path)[1].lower() not in FORMATS:
-            raise ValueError(f"{path}: a file with texture coordinates ends in {' or '.join(FORMATS)}")
+        if os.path.splitext(path)[1].lower() not in files.WRITES:
+            raise ValueError(f"{path}: a file with texture coordinates ends in "
+                             f"{' or '.join(files.WRITES)}")
         if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
             raise FileNotFoundError(f"{path} cannot be written: there is no such folder")
         if self._mesh_set is not None and self._is_hosted and path.lower().endswith((".ply", ".obj")):
             from . import pymeshlab
             pymeshlab.save(self._mesh_set, path)
             return
-        from . import files
         file = self._file or files.plain(self.vertices, self.faces)
         refined = None
         if self._file is not None and len(self.faces) != len(file.faces):
@@ -140,11 +138,11 @@ class Parametrization:
         if len(layer.edges):
             header += [f"element edge {len(layer.edges)}", "property int vertex1",
                        "property int vertex2"]
-        with open(path, "wb") as target:
-            target.write("\n".join([*header, "end_header", ""]).encode())
-            target.write(numpy.ascontiguousarray(layer.vertices, "<f8").tobytes())
-            target.write(faces.tobytes())
-            target.write(numpy.ascontiguousarray(layer.edges, "<i4").tobytes())
+        from .files._shared import write_file
+        write_file(path, b"".join((
+            "\n".join([*header, "end_header", ""]).encode(),
+            numpy.ascontiguousarray(layer.vertices, "<f8").tobytes(), faces.tobytes(),
+            numpy.ascontiguousarray(layer.edges, "<i4").tobytes())))
 
 
 _NOTHING = {"vertices": numpy.empty((0, 3)), "faces": numpy.empty((0, 3), numpy.int32),
@@ -236,14 +234,14 @@ def run_arrays(number, given, parameters, progress):
     """Runs a filter on what is given, by the library. Outputs, log, warnings."""
     texture = parameters.get("carry_texture", "")
     pictures = given.read_pictures(bool(texture))
-    texts = {"name": given.name} if given.name else {}
+    texts = {"name": given.name, "folder": os.getcwd()}
     with teller(progress) as tell:
         outputs, log, messages = watched(
             lambda listener: _library.run(number, parameters, given.arrays, pictures, texts, listener),
             tell)
     if texture:
-        from .files import _pictures
-        _pictures.write(texture, outputs.pop("picture"))
+        from . import files
+        files.write_picture(texture, outputs.pop("picture"))
     return outputs, given.messages + log, given.messages + messages
 
 

@@ -9,7 +9,7 @@ import warnings
 
 import numpy
 
-from ._batch import in_words, partial_folder
+from ._batch import in_words
 from ._errors import RicciWarning, Refused
 from ._loading import from_path
 from ._parametrize import flatten, uniformize
@@ -25,26 +25,17 @@ def die_with_parent():
 
 
 def save(result, target):
-    """Complete or not at all, with what belongs to the file, such as materials of OBJ. The names
-    of the files."""
-    folder, name = os.path.split(os.path.abspath(target))
-    partial = partial_folder(target, os.getpid())
-    os.makedirs(partial)
-    result.save(os.path.join(partial, name))
-    for kind in result.layers:  # of mesh.ply, 'Flat mesh' is mesh.flat.ply
-        result.save_layer(kind, os.path.join(partial, f"{os.path.splitext(name)[0]}.{kind}.ply"))
-    written = sorted(os.listdir(partial), key=lambda file: (file == name, file))
-    for file in written:
-        os.replace(os.path.join(partial, file), os.path.join(folder, file))
-    os.rmdir(partial)
-    return written
+    """The mesh, and beside mesh.ply the layer 'Flat mesh' as mesh.flat.ply."""
+    result.save(target)
+    for kind in result.layers:
+        result.save_layer(kind, f"{os.path.splitext(target)[0]}.{kind}.ply")
 
 
-def written_by_filter(parameters):
-    report, texture = (parameters.get(key, "") for key in ("report", "carry_texture"))
-    data = os.path.splitext(report)[0] + ".csv" if report else ""
-    return sorted(os.path.basename(path) for path in {report, data, texture}
-                  if os.path.isfile(path))
+def written(job):
+    """The files of the folder run that have this mesh's name."""
+    folder, stem = os.path.split(os.path.splitext(job["target"])[0])
+    return sorted(name for name in os.listdir(folder) if name.startswith(stem + ".") and
+                  os.path.join(folder, name) not in (job["mesh"], job["record"]))
 
 
 def main():
@@ -62,7 +53,7 @@ def main():
             with warnings.catch_warnings(record=True) as said:
                 warnings.simplefilter("always", RicciWarning)
                 result = solve(mesh, **job["parameters"])
-                answer["files"] = save(result, job["target"])
+                save(result, job["target"])
             answer.update(state="solved", messages=[str(one.message) for one in said
                                                     if issubclass(one.category, RicciWarning)],
                           results={key: numpy.asarray(value).tolist()
@@ -71,7 +62,8 @@ def main():
             answer.update(state="refused", reason=" ".join(str(refusal).split()))
         except (OSError, ValueError, ImportError) as problem:
             answer.update(state="failed", reason=in_words(problem))
-    answer["files"] += written_by_filter(job["parameters"])
+    if job["record"] and os.path.isdir(os.path.dirname(job["target"])):
+        answer["files"] = written(job)
     print("\n" + json.dumps(answer), flush=True)
 
 

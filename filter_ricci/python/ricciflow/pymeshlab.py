@@ -150,12 +150,12 @@ class _Texture:
         self.name, self._image = name, image
 
     def read(self):
-        from .files import _pictures
+        from . import files
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")
             self._image.save(path)
             with open(path, "rb") as picture:
-                return _pictures.decode(picture.read(), self.name)
+                return files.read_picture(picture.read(), self.name)
 
 
 def given(mesh):
