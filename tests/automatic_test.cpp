@@ -5,12 +5,14 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/transform.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -247,6 +249,68 @@ TEST(Unfolded, ACylinderIsItsWallWithTwoLids)
 	EXPECT_EQ(map.report.overlappingFaces, 0);
 	const double side = 2.0 * std::sin(kPi / kSides);
 	EXPECT_NEAR(map.report.seamLength, 2.0 * (kSides - 1) * side + 3.0, 1e-9);
+}
+
+/// Length of the outline along the axes over that of all of it.
+double uprightShare(const FlatMesh& map)
+{
+	std::map<std::pair<int, int>, Point2> sides;
+	for (const int f : map.points.indices())
+		for (const Corner c : cornersOf(f))
+			sides[{map.points[c], map.points[c.next()]}] = map.at(c.next()) - map.at(c);
+	double along = 0.0, whole = 0.0;
+	for (const auto& [ends, side] : sides)
+		if (sides.count({ends.second, ends.first}) == 0) {
+			whole += length(side);
+			along += std::min(std::abs(side[0]), std::abs(side[1])) < 1e-6 * length(side)
+						 ? length(side)
+						 : 0.0;
+		}
+	return along / whole;
+}
+
+TEST(Unfolded, BoxesLieAlongTheAxes)
+{
+	Random random(20);
+	for (int i = 0; i < 20; ++i) {
+		const std::array<double, 3> size{
+			random.real(0.3, 3.0), random.real(0.3, 3.0), random.real(0.3, 3.0)};
+		SurfaceMesh box = perforatedSlab(0, 2);
+		for (Point3& p : box.positions)
+			p = {p[0] * size[0], p[1] * size[1], p[2] * size[2]};
+		box = turned(box, {random.real(-3, 3), random.real(-3, 3), random.real(-3, 3)});
+		EXPECT_NEAR(uprightShare(parametrizeEuclidean(box, {}, {}).mesh), 1.0, 1e-9);
+		Options asLaidOut;
+		asLaidOut.turns = ChartTurns::None;
+		const Parametrization map = parametrizeEuclidean(box, {}, asLaidOut);
+		EXPECT_EQ(map.report.flippedFaces + map.report.overlappingFaces, 0);
+	}
+}
+
+/// Two faces with less than a millionth of the area, which no picture shows, do not decide that a box is not unfolded.
+TEST(Unfolded, WhateverNeedlesThereAre)
+{
+	const SurfaceMesh box = perforatedSlab(0, 3);
+	const FlatResult whole = run(box, Options());
+	ASSERT_EQ(whole.report.targetUsed, TargetUsed::Unfolded);
+	Random random(13);
+	for (int round = 0; round < 3; ++round) {
+		SurfaceMesh mesh = box;
+		for (int i = 0; i < 2; ++i) { // a vertex beside an edge, and the needle between them
+			const std::size_t f = at(random.index(static_cast<int>(box.triangles.size())));
+			const Triangle t = mesh.triangles[f];
+			const Point3 &p = mesh.positions[at(t[0])], &q = mesh.positions[at(t[1])];
+			const Point3 middle = 0.5 * (p + q);
+			const int n = static_cast<int>(mesh.positions.size());
+			mesh.positions.push_back(middle + 4e-6 * (mesh.positions[at(t[2])] - middle));
+			mesh.triangles[f] = {t[0], n, t[2]};
+			mesh.triangles.push_back({n, t[1], t[2]});
+			mesh.triangles.push_back({t[0], t[1], n});
+		}
+		const FlatResult map = run(mesh, Options());
+		EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
+		EXPECT_NEAR(*map.report.objective, *whole.report.objective, 0.1);
+	}
 }
 
 TEST(Unfolded, AreNoRoundSurfaces)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
 #include "support/flat_map.h"
+#include "support/random.h"
 #include "support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -175,6 +176,37 @@ TEST(ShortHoles, AreCappedByDefault)
 	Options open;
 	open.holes = Holes::Boundaries;
 	EXPECT_EQ(run(mesh, open).report.cappedHoles, 0);
+}
+
+/// A wall with windows, rough everywhere: what is enclosed by a window is nearly flat, so that seams to it save nothing.
+TEST(CheaperHoles, AreCappedWhereSeamsToThemSaveNothing)
+{
+	Random random(60);
+	const int nu = 40, nv = 30;
+	const SurfaceMesh wall = grid(nu, nv, Ends::Open, Ends::Open, [&](int i, int j) {
+		return Point3{0.5 * i, 0.5 * j, random.real(-0.05, 0.05)};
+	});
+	SurfaceMesh mesh = wall;
+	mesh.triangles.clear();
+	for (std::size_t f = 0; f < wall.triangles.size(); ++f) {
+		const int cell = static_cast<int>(f / 2), i = cell / nv, j = cell % nv;
+		if (i % 10 < 4 || i % 10 > 6 || j % 10 < 3 || j % 10 > 6)
+			mesh.triangles.push_back(wall.triangles[f]);
+	}
+	Options open;
+	open.holes = Holes::Boundaries;
+	const Report seams = run(mesh, open).report, report = run(mesh, Options()).report;
+	EXPECT_EQ(report.boundaryLoops, 13);
+	EXPECT_EQ(report.cappedHoles, 12);
+	EXPECT_EQ(report.charts, 1);
+	EXPECT_EQ(report.seamEdges, 0);
+	EXPECT_LT(*report.objective, 4.02);
+	EXPECT_LT(*report.objective, *seams.objective);
+	// The ends of a tube enclose half a sphere each: a cap would have to hold its curvature.
+	std::vector<std::array<double, 2>> tube;
+	for (int i = 0; i <= 20; ++i)
+		tube.push_back({1.0, 0.2 * i});
+	EXPECT_EQ(run(revolved(tube, 24), Options()).report.cappedHoles, 0);
 }
 
 TEST(ShortHoles, AreBoundariesWhereTheyCannotBeCapped)

@@ -662,6 +662,8 @@ TEST(Choices, AreThoseThatThereAre)
 		"holes", 3, [](Options & o) -> auto& { return o.holes; });
 	inPlane(
 		"charts", 3, [](Options & o) -> auto& { return o.charts; });
+	inPlane(
+		"turns", 3, [](Options & o) -> auto& { return o.turns; });
 	inDisk(
 		"target", 3, [](HyperbolicOptions & o) -> auto& { return o.target; });
 	inPlane(

@@ -300,7 +300,8 @@ void CarriedTexture::describe(Results& results) const
 		line += ", from " + std::to_string(count) + (count == 1 ? " image. " : " images. ") +
 				ricci::numberText(density.before, 4) + " texels for a unit of length before, " +
 				ricci::numberText(density.after, 4) + " after";
-		results.emplace_back("texture_scale", density.ratio);
+		results.push_back(
+			{"texture_scale", density.ratio, "Texels for a unit of length, new over old"});
 	}
 	else
 		line += ", from the colours of the mesh";

@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -16,7 +19,116 @@ namespace filter_ricci {
 
 namespace {
 
-using Choices = std::vector<std::string>;
+// A parameter: its name and default, its label, and its choices or its type; then its tooltip, behind tabulators. What
+// a first run needs comes first; what few runs need is marked by +. The choices have the order of the enums of the same
+// name in ricci/options.h. A name alone stands for the parameter of the Euclidean filter.
+
+const char* const kEuclidean = R"(
+target_curvature = Automatic | Target curvature | Automatic; Flat everywhere; Disk; Rectangle; Cones at selected vertices; From vertex quality; Placed cones
+	What the flow is asked to reach. <b>Automatic</b> suits most meshes: it places cones where areas would change much.
+free_boundary = true | Free boundary | bool
+	The boundary keeps its lengths, but for what the finish changes. Not read for Disk, Rectangle and the flat annulus.
+cone_distortion = 0 | Cones: area distortion | float
+	0: the cones that are worth their seams. Above 0: so many that areas change by less than this (0.25: by a quarter).
+seams = Shortest | Seams | Shortest; Existing texture seams; Selected edges; Border of selected faces
+	<b>Shortest</b>, or first where you choose: at texture seams, along selected edges ('Select Crease Edges'), or round
+	selected faces.
+output_triangulation = Keep the mesh | Output triangulation | Keep the mesh; Common refinement
+	<b>Common refinement</b>: faces are divided where the flow's edges cross them, so that the map is exact on every
+	piece.
+chart_margin = 0 | Margin of the charts | float
+	Room round each chart, as a share of the side of the square, for baking. 0.004: 4 pixels of 1024, 8 of 2048.
+colorize = false | Colour by distortion | bool
+	Colour the vertices from blue (angles kept) over cyan, green and yellow to red (the 99th percentile over the faces,
+	and more).
+flat_layer = false | Flat mesh as new layer | bool
+	Add a layer with the mesh laid out in the plane, cut along its seams.
++ holes = Short ones capped | Holes | Boundaries; Capped; Short ones capped
+	Boundary loops other than the longest: boundaries too, or <b>Capped</b> for the flow, so that the chart goes round
+	them without seams. <b>Short ones capped</b>: those within a tenth of the root of the area, even if all are.
++ seam_hiding = 0 | Seams: hide in hollows | float
+	0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten times its length, so that seams run
+	through hollows.
++ cone_count = 0 | Cones: number | int
+	The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
++ cone_rounding = Free | Cones: curvatures | Free; Multiples of pi/2
+	<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as quadrangulations need them; all seams then
+	differ by quarter turns.
++ method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles; Edge swaps; Thurston
+	If a triangle breaks, <b>intrinsic flips</b> or the paper's <b>edge swaps</b> give the flow others, and <b>fixed
+	triangles</b> end with an error; the mesh is never changed. <b>Thurston</b>: the conventional flow on the mesh's
+	triangles, to compare with.
++ finish = Least distortion | Finish | None; Repair; Least distortion; Least stretch
+	Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the least mean conformal distortion,
+	or the <b>least stretch</b>, of lengths too: best on chosen seams, whose sides then differ. Only for the method
+	'Intrinsic flips'.
++ charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room
+	<b>Without overlap</b>: charts that cover a part of the plane twice are cut apart along the shortest lines. <b>Cut for
+	room</b>: with <b>Automatic</b>, also a chart that fills little of the square, where the room is worth the seam.
++ normalize_uv = true | Fit into the unit square | bool
+	Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of the metric.
++ sphere_layer = false | Sphere as new layer | bool
+	Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed surface of genus 0.
++ carry_texture = | Carry the texture over to | PNG image (*.png)
+	A PNG file that gets what the mesh shows now, its textures or else its colours, drawn for the new texture coordinates.
+	Empty: no texture.
++ texture_size = 2048 | Size of that texture | int
+	Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old ones.
++ report = | Report file | Page and its data (*.html);;Data alone (*.csv)
+	A report of the run: a page with diagrams and its data beside it (.html), or the data alone (.csv). Empty: no report.
++ epsilon = 1e-8 | Epsilon (rad) | float
+	The flow stops when the curvature of every vertex is this close to its target, in radians, or at the floor that
+	rounding sets.
++ time_limit = 0 | Time limit (seconds) | float
+	A run that takes longer ends with an error and leaves the mesh as it was. 0: no limit.
+)";
+
+const char* const kHyperbolic = R"(
+target_curvature = Hyperbolic metric | Target curvature | Hyperbolic metric; Cones at selected vertices; From vertex quality
+	The curvature at the vertices, beyond the constant -1 of the triangles. <b>Hyperbolic metric</b>: none, for surfaces
+	of negative Euler characteristic.
+cone_angle = 180 | Cone angle (degrees) | float
+	The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 is no cone.
+output_triangulation
+colorize
+flat_layer = false | Disk as new layer | bool
+	Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
+universal_cover = 0 | Universal cover (rings) | int
+	Add a layer with the mesh in the Poincaré disk and this many rings of copies round it, which tile the disk. 0: no
+	layer.
+generator_axes = false | Axes of the generators | bool
+	Add a layer with the axes of the canonical generators of the Fuchsian group, as edges. On the surface they are closed
+	geodesics.
+canonical_polygon = false | Canonical polygon | bool
+	Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides are geodesics that the
+	canonical generators pair.
++ seams
++ free_boundary = false | Free boundary | bool
+	The circles of the boundary's vertices keep their radii, and the target holds inside only. Off: the target holds on
+	the boundary too.
++ method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles
+	If a triangle breaks, <b>intrinsic flips</b> give the flow others, and <b>fixed triangles</b> end with an error; the
+	mesh is never changed.
++ finish = Repair | Finish | None; Repair
+	Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
++ carry_texture
++ texture_size
++ report
++ epsilon
++ time_limit
+)";
+
+/// The parts of a text between separators.
+std::vector<std::string> split(const std::string& text, const std::string& separator)
+{
+	std::vector<std::string> parts;
+	std::size_t from = 0;
+	for (std::size_t at; (at = text.find(separator, from)) != std::string::npos;
+		 from = at + separator.size())
+		parts.push_back(text.substr(from, at - from));
+	parts.push_back(text.substr(from));
+	return parts;
+}
 
 std::string trimmed(const std::string& text)
 {
@@ -26,81 +138,84 @@ std::string trimmed(const std::string& text)
 									 : text.substr(from, text.find_last_not_of(blanks) + 1 - from);
 }
 
-Choices firstTwo(Choices choices)
+std::string lower(std::string text)
 {
-	choices.resize(2);
-	return choices;
+	for (char& c : text)
+		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+	return text;
 }
 
-// The order of each list is that of the enum of the same name in ricci/options.h.
-Choices targetCurvatureChoices()
+/// The whole text as a number, in no locale.
+template<class Number>
+bool read(const std::string& text, Number& number)
 {
-	return {
-		"Automatic",
-		"Flat everywhere",
-		"Disk",
-		"Rectangle",
-		"Cones at selected vertices",
-		"From vertex quality",
-		"Placed cones"};
+	std::istringstream stream(text);
+	stream.imbue(std::locale::classic());
+	return stream >> number && (stream >> std::ws).eof();
 }
 
-Choices coneRoundingChoices()
+bool readAny(const std::string& text, double& number)
 {
-	return {"Free", "Multiples of pi/2"};
+	using Limits = std::numeric_limits<double>;
+	const std::string word = lower(text);
+	for (const auto& [name, value] :
+		 {std::pair("nan", Limits::quiet_NaN()),
+		  std::pair("inf", Limits::infinity()),
+		  std::pair("infinity", Limits::infinity()),
+		  std::pair("-inf", -Limits::infinity()),
+		  std::pair("-infinity", -Limits::infinity())})
+		if (word == name) {
+			number = value;
+			return true;
+		}
+	return read(text, number);
 }
 
-Choices methodChoices()
+/// \param others those that a name alone stands for
+Parameters parametersOf(const char* table, const Parameters& others)
 {
-	return {"Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"};
-}
-
-// The hyperbolic flow has no edge swaps and no Thurston packing.
-Choices hyperbolicMethodChoices()
-{
-	return firstTwo(methodChoices());
-}
-
-Choices outputTriangulationChoices()
-{
-	return {"Keep the mesh", "Common refinement"};
-}
-
-Choices finishChoices()
-{
-	return {"None", "Repair", "Least distortion", "Least stretch"};
-}
-
-// The hyperbolic flow has no map of least distortion or stretch.
-Choices hyperbolicFinishChoices()
-{
-	return firstTwo(finishChoices());
-}
-
-Choices holesChoices()
-{
-	return {"Boundaries", "Capped", "Short ones capped"};
-}
-
-Choices seamsChoices()
-{
-	return {"Shortest", "Existing texture seams", "Selected edges", "Border of selected faces"};
-}
-
-Choices hyperbolicTargetChoices()
-{
-	return {"Hyperbolic metric", "Cones at selected vertices", "From vertex quality"};
-}
-
-Choices chartsChoices()
-{
-	return {"As the flow has them", "Without overlap", "Without overlap, cut for room"};
+	Parameters list;
+	for (const std::string& line : split(table, "\n")) {
+		if (line.empty())
+			continue;
+		if (line[0] == '\t') {
+			std::string& tooltip = list.back().tooltip;
+			tooltip += (tooltip.empty() ? "" : " ") + line.substr(1);
+			continue;
+		}
+		const bool isAdvanced = line[0] == '+';
+		const std::vector<std::string> fields = split(line.substr(isAdvanced ? 2 : 0), " | ");
+		const std::size_t end = fields[0].find(" =");
+		const std::string name = fields[0].substr(0, end);
+		if (fields.size() == 1)
+			list.push_back(*findParameter(others, name));
+		else {
+			Parameter p{name, std::string(), {}, fields[1], "", "", false};
+			const std::string& kind = fields[2];
+			if (kind == "bool")
+				p.value = false;
+			else if (kind == "int")
+				p.value = 0;
+			else if (kind == "float")
+				p.value = 0.0;
+			else if (kind.find("(*.") != std::string::npos)
+				p.files = kind;
+			else {
+				p.value = 0;
+				p.choices = split(kind, "; ");
+			}
+			setFromText(p, trimmed(fields[0].substr(end + 2)));
+			list.push_back(std::move(p));
+		}
+		list.back().isAdvanced = isAdvanced;
+	}
+	return list;
 }
 
 template<class Enum>
 void readChoice(const Parameters& par, const char* id, Enum& value)
 {
-	const Choices& choices = findParameter(par, id)->choices;
+	const std::vector<std::string>& choices = findParameter(par, id)->choices;
 	const int chosen = valueOf<int>(par, id), count = static_cast<int>(choices.size());
 	if (chosen >= 0 && chosen < count) {
 		value = static_cast<Enum>(chosen);
@@ -165,270 +280,54 @@ constexpr double kDegree = ricci::kPi / 180.0;
 /// The disk cannot show more rings than this.
 constexpr int kMaxRings = 20;
 
-Parameter
-choice(const char* name, int chosen, Choices choices, const char* label, const std::string& tooltip)
-{
-	return {name, chosen, std::move(choices), label, tooltip, "", false};
-}
-
-/// A truth value or a number.
-template<class T>
-Parameter simple(const char* name, T value, const char* label, const char* tooltip)
-{
-	return {name, value, {}, label, tooltip, "", false};
-}
-
-Parameter file(const char* name, const char* files, const char* label, const char* tooltip)
-{
-	return {name, std::string(), {}, label, tooltip, files, false};
-}
-
-Parameter advanced(Parameter parameter)
-{
-	parameter.isAdvanced = true;
-	return parameter;
-}
-
-Parameter outputTriangulationParameter(ricci::OutputTriangulation chosen)
-{
-	return choice(
-		"output_triangulation",
-		static_cast<int>(chosen),
-		outputTriangulationChoices(),
-		"Output triangulation",
-		"<b>Common refinement</b>: faces are divided where the flow's edges cross them, so that "
-		"the map is exact on every piece.");
-}
-
-const char* const kSeamsName = "Seams";
-const char* const kSeamsTip = "<b>Shortest</b>, or first where you choose: at texture seams, along "
-							  "selected edges ('Select Crease Edges'), or round selected faces.";
-
-std::string finishTip(const std::string& more)
-{
-	return "Repairs faces that would come out flipped" + more +
-		   ". Only for the method 'Intrinsic flips'.";
-}
-
-Parameter colorizeParameter()
-{
-	return simple(
-		"colorize",
-		false,
-		"Colour by distortion",
-		"Colour the vertices from blue (angles kept) over cyan, green and yellow to red (the 99th "
-		"percentile over the faces, and more).");
-}
-
-/// The last parameters of both filters: files to write, and how accurate and how long a run may be.
-void addFilesAndLimits(Parameters& list, double epsilon)
-{
-	list.push_back(advanced(file(
-		"carry_texture",
-		"PNG image (*.png)",
-		"Carry the texture over to",
-		"A PNG file that gets what the mesh shows now, its textures or else its colours, drawn "
-		"for the new texture coordinates. Empty: no texture.")));
-	list.push_back(advanced(simple(
-		"texture_size",
-		TextureSettings().size,
-		"Size of that texture",
-		"Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old ones.")));
-	list.push_back(advanced(file(
-		"report",
-		"Page and its data (*.html);;Data alone (*.csv)",
-		"Report file",
-		"A report of the run: a page with diagrams and its data beside it (.html), or the data "
-		"alone (.csv). Empty: no report.")));
-	list.push_back(advanced(simple(
-		"epsilon",
-		epsilon,
-		"Epsilon (rad)",
-		"The flow stops when the curvature of every vertex is this close to its target, in "
-		"radians, or at the floor that rounding sets.")));
-	list.push_back(advanced(simple(
-		"time_limit",
-		0.0,
-		"Time limit (seconds)",
-		"A run that takes longer ends with an error and leaves the mesh as it was. 0: no limit.")));
-}
-
-// What a first run needs comes first, and what few runs need after it.
-Parameters euclideanParameters()
-{
-	const ricci::Options defaults;
-	Parameters list;
-	list.push_back(choice(
-		"target_curvature",
-		static_cast<int>(defaults.target),
-		targetCurvatureChoices(),
-		"Target curvature",
-		"What the flow is asked to reach. <b>Automatic</b> suits most meshes: it places cones "
-		"where areas would change much."));
-	list.push_back(simple(
-		"free_boundary",
-		defaults.freeBoundary,
-		"Free boundary",
-		"The boundary keeps its lengths, but for what the finish changes. Not read for Disk, "
-		"Rectangle and the flat annulus."));
-	list.push_back(simple(
-		"cone_distortion",
-		defaults.cones.distortion,
-		"Cones: area distortion",
-		"0: the cones that are worth their seams. Above 0: so many that areas change by less than "
-		"this (0.25: by a quarter)."));
-	list.push_back(choice("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
-	list.push_back(outputTriangulationParameter(defaults.output));
-	list.push_back(simple(
-		"chart_margin",
-		ricci::PackOptions().chartMargin,
-		"Margin of the charts",
-		"Room round each chart, as a share of the side of the square, for baking. 0.004: 4 pixels "
-		"of 1024, 8 of 2048."));
-	list.push_back(colorizeParameter());
-	list.push_back(simple(
-		"flat_layer",
-		false,
-		"Flat mesh as new layer",
-		"Add a layer with the mesh laid out in the plane, cut along its seams."));
-	list.push_back(advanced(choice(
-		"holes",
-		static_cast<int>(defaults.holes),
-		holesChoices(),
-		"Holes",
-		"Boundary loops other than the longest: boundaries too, or <b>Capped</b> for the flow, so "
-		"that the chart goes round them without seams. <b>Short ones capped</b>: those within a "
-		"tenth of the root of the area, even if all are.")));
-	list.push_back(advanced(simple(
-		"seam_hiding",
-		defaults.seamHiding,
-		"Seams: hide in hollows",
-		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten "
-		"times its length, so that seams run through hollows.")));
-	list.push_back(advanced(simple(
-		"cone_count",
-		defaults.cones.count,
-		"Cones: number",
-		"The number of placed cones. 0: as many as 'Cones: area distortion' asks for.")));
-	list.push_back(advanced(choice(
-		"cone_rounding",
-		static_cast<int>(defaults.cones.rounding),
-		coneRoundingChoices(),
-		"Cones: curvatures",
-		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as "
-		"quadrangulations need them; all seams then differ by quarter turns.")));
-	list.push_back(advanced(choice(
-		"method",
-		static_cast<int>(defaults.method),
-		methodChoices(),
-		"Method",
-		"If a triangle breaks, <b>intrinsic flips</b> or the paper's <b>edge swaps</b> give the "
-		"flow others, and <b>fixed triangles</b> end with an error; the mesh is never changed. "
-		"<b>Thurston</b>: the conventional flow on the mesh's triangles, to compare with.")));
-	list.push_back(advanced(choice(
-		"finish",
-		static_cast<int>(defaults.finish),
-		finishChoices(),
-		"Finish",
-		finishTip(
-			", and on 'Keep the mesh' gives the mesh the least mean conformal distortion, or "
-			"the <b>least stretch</b>, of lengths too: best on chosen seams, whose sides then "
-			"differ"))));
-	list.push_back(advanced(choice(
-		"charts",
-		static_cast<int>(defaults.charts),
-		chartsChoices(),
-		"Charts",
-		"<b>Without overlap</b>: charts that cover a part of the plane twice are cut apart along "
-		"the shortest lines. <b>Cut for room</b>: with <b>Automatic</b>, also a chart that fills "
-		"little of the square, where the room is worth the seam.")));
-	list.push_back(advanced(simple(
-		"normalize_uv",
-		ricci::PackOptions().normalizeUV,
-		"Fit into the unit square",
-		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale "
-		"of the metric.")));
-	list.push_back(advanced(simple(
-		"sphere_layer",
-		false,
-		"Sphere as new layer",
-		"Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed "
-		"surface of genus 0.")));
-	addFilesAndLimits(list, defaults.epsilon);
-	return list;
-}
-
-Parameters hyperbolicParameters()
-{
-	const ricci::HyperbolicOptions defaults;
-	Parameters list;
-	list.push_back(choice(
-		"target_curvature",
-		static_cast<int>(defaults.target),
-		hyperbolicTargetChoices(),
-		"Target curvature",
-		"The curvature at the vertices, beyond the constant -1 of the triangles. <b>Hyperbolic "
-		"metric</b>: none, for surfaces of negative Euler characteristic."));
-	list.push_back(simple(
-		"cone_angle",
-		defaults.coneAngle / kDegree,
-		"Cone angle (degrees)",
-		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 "
-		"is no cone."));
-	list.push_back(outputTriangulationParameter(defaults.output));
-	list.push_back(colorizeParameter());
-	list.push_back(simple(
-		"flat_layer",
-		false,
-		"Disk as new layer",
-		"Add a layer with the mesh laid out in the Poincaré disk, cut along its seams."));
-	list.push_back(simple(
-		"universal_cover",
-		0,
-		"Universal cover (rings)",
-		"Add a layer with the mesh in the Poincaré disk and this many rings of copies round it, "
-		"which tile the disk. 0: no layer."));
-	list.push_back(simple(
-		"generator_axes",
-		false,
-		"Axes of the generators",
-		"Add a layer with the axes of the canonical generators of the Fuchsian group, as edges. "
-		"On the surface they are closed geodesics."));
-	list.push_back(simple(
-		"canonical_polygon",
-		false,
-		"Canonical polygon",
-		"Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides "
-		"are geodesics that the canonical generators pair."));
-	list.push_back(advanced(choice("seams", 0, seamsChoices(), kSeamsName, kSeamsTip)));
-	list.push_back(advanced(simple(
-		"free_boundary",
-		defaults.freeBoundary,
-		"Free boundary",
-		"The circles of the boundary's vertices keep their radii, and the target holds inside "
-		"only. Off: the target holds on the boundary too.")));
-	list.push_back(advanced(choice(
-		"method",
-		static_cast<int>(defaults.method),
-		hyperbolicMethodChoices(),
-		"Method",
-		"If a triangle breaks, <b>intrinsic flips</b> give the flow others, and <b>fixed "
-		"triangles</b> end with an error; the mesh is never changed.")));
-	list.push_back(advanced(choice(
-		"finish",
-		static_cast<int>(ricci::Finish::Repair),
-		hyperbolicFinishChoices(),
-		"Finish",
-		finishTip(""))));
-	addFilesAndLimits(list, defaults.epsilon);
-	return list;
-}
-
 } // namespace
 
-Parameters filterParameters(int filter)
+const Parameters& filterParameters(int filter)
 {
-	return filter == Hyperbolic ? hyperbolicParameters() : euclideanParameters();
+	static const Parameters euclidean = parametersOf(kEuclidean, {}),
+							hyperbolic = parametersOf(kHyperbolic, euclidean);
+	return filter == Hyperbolic ? hyperbolic : euclidean;
+}
+
+std::string setFromText(Parameter& p, const std::string& text)
+{
+	const auto wanted = [&](const std::string& what) {
+		return "{" + p.name + "} must be " + what + ", not '" + text + "'.";
+	};
+	int whole = 0;
+	double number = 0.0;
+	if (!p.choices.empty()) {
+		const auto named =
+			std::find_if(p.choices.begin(), p.choices.end(), [&](const std::string& c) {
+				return lower(c) == lower(text);
+			});
+		if (named == p.choices.end() && !read(text, whole)) {
+			std::string names;
+			for (const std::string& choice : p.choices)
+				names += (names.empty() ? "'" : ", '") + choice + "'";
+			return wanted("one of " + names);
+		}
+		p.value = named == p.choices.end() ? whole : static_cast<int>(named - p.choices.begin());
+	}
+	else if (std::holds_alternative<bool>(p.value)) {
+		const bool isOn = lower(text) == "true" || text == "1";
+		if (!isOn && lower(text) != "false" && text != "0")
+			return wanted("true or false");
+		p.value = isOn;
+	}
+	else if (std::holds_alternative<int>(p.value)) {
+		if (!read(text, whole))
+			return wanted("a whole number");
+		p.value = whole;
+	}
+	else if (std::holds_alternative<double>(p.value)) {
+		if (!readAny(text, number))
+			return wanted("a number");
+		p.value = number;
+	}
+	else
+		p.value = text;
+	return "";
 }
 
 const Parameter* findParameter(const Parameters& parameters, const std::string& name)

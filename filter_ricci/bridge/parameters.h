@@ -33,7 +33,12 @@ struct Parameter
 using Parameters = std::vector<Parameter>;
 
 /// Those of a filter, with their defaults.
-Parameters filterParameters(int filter);
+const Parameters& filterParameters(int filter);
+
+/// Gives a parameter the value that a text names: a choice by its name, in any case, or its number; true, false, 1 or
+/// 0; a number in no locale, also nan and inf; a path.
+/// \return the sentence that refuses another text; empty if there is nothing to refuse
+std::string setFromText(Parameter& parameter, const std::string& text);
 
 /// The parameter of that name; null if there is none.
 const Parameter* findParameter(const Parameters& parameters, const std::string& name);

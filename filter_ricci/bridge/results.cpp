@@ -9,7 +9,6 @@
 #include <ios>
 #include <limits>
 #include <locale>
-#include <map>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -25,12 +24,6 @@ constexpr double kDoubtfulAngles = 2.0, kDoubtfulAreas = 4.0, kDoubtfulOccupancy
 
 /// Of texture_scale.
 constexpr double kCoarser = 0.9;
-
-void addIfPresent(Results& results, const char* key, const std::optional<double>& value)
-{
-	if (value)
-		results.emplace_back(key, *value);
-}
 
 template<class Number>
 void print(std::ostream& line, Number value)
@@ -56,8 +49,8 @@ std::string keyValueLine(Results::const_iterator begin, Results::const_iterator 
 	line.precision(10);
 	line << std::boolalpha;
 	for (auto result = begin; result != end; ++result) {
-		line << (result == begin ? "" : " ") << result->first << "=";
-		std::visit([&line](const auto& value) { print(line, value); }, result->second);
+		line << (result == begin ? "" : " ") << result->key << "=";
+		std::visit([&line](const auto& value) { print(line, value); }, result->value);
 	}
 	return line.str();
 }
@@ -65,7 +58,7 @@ std::string keyValueLine(Results::const_iterator begin, Results::const_iterator 
 template<class T>
 T resultOf(const Results& results, const char* key)
 {
-	for (const auto& [name, value] : results)
+	for (const auto& [name, value, label] : results)
 		if (name == key)
 			return std::get<T>(value);
 	throw std::logic_error(std::string("There is no result ") + key + ".");
@@ -76,145 +69,84 @@ T resultOf(const Results& results, const char* key)
 Results toResults(const ricci::Report& report)
 {
 	Results results = {
-		{"converged", report.converged},
-		{"iterations", report.iterations},
-		{"max_curvature_error", report.maxCurvatureError},
-		{"residual_floor", report.residualFloor},
-		{"lengthened", report.lengthened},
-		{"qc_mean", report.qcMean},
-		{"qc_vertex_mean", report.qcVertexMean},
-		{"qc_area_mean", report.qcAreaMean},
-		{"qc_p99", report.qcP99},
-		{"qc_max", report.qcMax},
-		{"area_distortion_mean", report.areaDistortionMean},
-		{"area_distortion_spread", report.areaDistortionSpread},
-		{"flipped_faces", report.flippedFaces},
-		{"flipped_by_rounding", report.flippedByRounding},
-		{"finish_moved", report.finishMoved},
-		{"ended_early", report.endedEarly},
-		{"flips", report.flips},
-		{"refinement_points", report.refinementPoints},
-		{"edge_swaps", report.edgeSwaps},
-		{"boundary_splits", report.boundarySplits},
-		{"euler_characteristic", report.eulerCharacteristic},
-		{"genus", report.genus},
-		{"boundary_loops", report.boundaryLoops},
-		{"components", report.components},
-		{"cut_nonmanifold_edges", report.cutNonmanifoldEdges},
-		{"split_vertices", report.splitVertices},
-		{"duplicate_faces", report.duplicateFaces},
-		{"one_sided_components", report.oneSidedComponents},
-		{"degenerate_faces", report.degenerateFaces},
-		{"cones", report.cones},
-		{"chosen_seam_edges", report.chosenSeamEdges},
-		{"chosen_seam_length", report.chosenSeamLength},
-		{"seam_edges", report.seamEdges},
-		{"seam_length", report.seamLength},
-		{"seam_length_relative", report.seamLengthRelative},
-		{"charts", report.charts},
-		{"occupancy", report.occupancy},
-		{"capped_holes", report.cappedHoles},
-		{"overlapping_charts", report.overlappingCharts},
-		{"overlapping_faces", report.overlappingFaces},
-		{"unequal_seams", report.unequalSeams},
-		{"overlap_cuts", report.overlapCuts}};
-	addIfPresent(results, "stretch", report.stretch);
-	addIfPresent(results, "objective", report.objective);
+		{"converged", report.converged, "Converged"},
+		{"iterations", report.iterations, "Newton steps"},
+		{"max_curvature_error", report.maxCurvatureError, "Largest error of the curvature (rad)"},
+		{"residual_floor", report.residualFloor, "Least error that rounding allows (rad)"},
+		{"lengthened", report.lengthened, "Largest share added to an edge of faces without area"},
+		{"qc_mean", report.qcMean, "Distortion of angles, mean over faces (1: none)"},
+		{"qc_vertex_mean", report.qcVertexMean, "Distortion of angles, mean over vertices"},
+		{"qc_area_mean", report.qcAreaMean, "Distortion of angles, mean by area"},
+		{"qc_p99", report.qcP99, "Distortion of angles, 99th percentile"},
+		{"qc_max", report.qcMax, "Distortion of angles, largest"},
+		{"area_distortion_mean",
+		 report.areaDistortionMean,
+		 "Distortion of areas, mean factor (1: none)"},
+		{"area_distortion_spread",
+		 report.areaDistortionSpread,
+		 "Distortion of areas, spread of the logarithm"},
+		{"flipped_faces", report.flippedFaces, "Faces flipped or without area"},
+		{"flipped_by_rounding", report.flippedByRounding, "Further ones as floats"},
+		{"finish_moved", report.finishMoved, "Points moved by the repair"},
+		{"ended_early", report.endedEarly, "Searches ended by the bound on their work"},
+		{"flips", report.flips, "Flips of edges"},
+		{"refinement_points", report.refinementPoints, "Points added by the refinement"},
+		{"edge_swaps", report.edgeSwaps, "Edges swapped"},
+		{"boundary_splits", report.boundarySplits, "Boundary edges split"},
+		{"euler_characteristic", report.eulerCharacteristic, "Euler characteristic"},
+		{"genus", report.genus, "Genus"},
+		{"boundary_loops", report.boundaryLoops, "Boundary loops"},
+		{"components", report.components, "Components"},
+		{"cut_nonmanifold_edges", report.cutNonmanifoldEdges, "Non-manifold edges, cut open"},
+		{"split_vertices", report.splitVertices, "Vertices with several places"},
+		{"duplicate_faces", report.duplicateFaces, "Faces with the vertices of another"},
+		{"one_sided_components", report.oneSidedComponents, "One-sided components, cut open"},
+		{"degenerate_faces", report.degenerateFaces, "Faces drawn as a segment or a point"},
+		{"cones", report.cones, "Cones"},
+		{"chosen_seam_edges", report.chosenSeamEdges, "Edges of the chosen seams"},
+		{"chosen_seam_length", report.chosenSeamLength, "Length of the chosen seams"},
+		{"seam_edges", report.seamEdges, "Edges of the other seams"},
+		{"seam_length", report.seamLength, "Length of the other seams"},
+		{"seam_length_relative", report.seamLengthRelative, "The same over the root of the area"},
+		{"charts", report.charts, "Charts"},
+		{"occupancy", report.occupancy, "Share of the square that is covered"},
+		{"capped_holes", report.cappedHoles, "Holes capped"},
+		{"overlapping_charts", report.overlappingCharts, "Charts that overlap"},
+		{"overlapping_faces", report.overlappingFaces, "Faces that overlap"},
+		{"unequal_seams", report.unequalSeams, "Edges of seams with sides of unequal length"},
+		{"overlap_cuts", report.overlapCuts, "Edges cut against overlap"}};
+	const auto add = [&](const char* key, const std::optional<double>& value, const char* label) {
+		if (value)
+			results.push_back({key, *value, label});
+	};
+	add("stretch", report.stretch, "Stretch, mean by area (4: none)");
+	add("objective", report.objective, "Stretch and the price of the seams");
 	if (report.targetUsed)
-		results.emplace_back("target_used", static_cast<int>(*report.targetUsed));
-	addIfPresent(results, "expected_spread", report.expectedSpread);
-	addIfPresent(results, "boundary_ratio_min", report.boundaryRatioMin);
-	addIfPresent(results, "boundary_ratio_max", report.boundaryRatioMax);
-	addIfPresent(results, "torus_tau_re", report.torusTauRe);
-	addIfPresent(results, "torus_tau_im", report.torusTauIm);
-	addIfPresent(results, "annulus_modulus", report.annulusModulus);
-	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
-	addIfPresent(results, "holonomy_error", report.holonomyError);
+		results.push_back(
+			{"target_used", static_cast<int>(*report.targetUsed), "Target used, by its number"});
+	add("expected_spread", report.expectedSpread, "Spread of areas that was expected");
+	add("boundary_ratio_min", report.boundaryRatioMin, "Boundary edges: least change of length");
+	add("boundary_ratio_max", report.boundaryRatioMax, "Boundary edges: largest change of length");
+	add("torus_tau_re", report.torusTauRe, "Modulus of the torus, real part");
+	add("torus_tau_im", report.torusTauIm, "Modulus of the torus, imaginary part");
+	add("annulus_modulus", report.annulusModulus, "Modulus of the annulus");
+	add("rectangle_aspect", report.rectangleAspect, "Longer over shorter side of the rectangle");
+	add("holonomy_error", report.holonomyError, "Largest error of a quarter turn (rad)");
 	if (!report.periodMatrix.empty()) {
 		std::vector<double> numbers;
 		for (const std::complex<double>& entry : report.periodMatrix)
 			numbers.insert(numbers.end(), {entry.real(), entry.imag()});
-		results.emplace_back("period_matrix", std::move(numbers));
+		results.push_back({"period_matrix", std::move(numbers), "Period matrix"});
 	}
-	addIfPresent(results, "period_error", report.periodError);
-	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
+	add("period_error", report.periodError, "Bound of its error");
+	add("hyperbolic_area", report.hyperbolicArea, "Hyperbolic area");
 	if (report.hyperbolicArea)
-		results.emplace_back("left_out_components", report.leftOutComponents);
-	addIfPresent(results, "relation_error", report.relationError);
+		results.push_back(
+			{"left_out_components",
+			 report.leftOutComponents,
+			 "Components without a hyperbolic metric, beside the disk"});
+	add("relation_error", report.relationError, "How far the layout is from closing up");
 	return results;
-}
-
-std::string resultLabel(const std::string& key)
-{
-	static const std::map<std::string, const char*> labels = {
-		{"converged", "Converged"},
-		{"iterations", "Newton steps"},
-		{"max_curvature_error", "Largest error of the curvature (rad)"},
-		{"residual_floor", "Least error that rounding allows (rad)"},
-		{"lengthened", "Largest share added to an edge of faces without area"},
-		{"qc_mean", "Distortion of angles, mean over faces (1: none)"},
-		{"qc_vertex_mean", "Distortion of angles, mean over vertices"},
-		{"qc_area_mean", "Distortion of angles, mean by area"},
-		{"qc_p99", "Distortion of angles, 99th percentile"},
-		{"qc_max", "Distortion of angles, largest"},
-		{"area_distortion_mean", "Distortion of areas, mean factor (1: none)"},
-		{"area_distortion_spread", "Distortion of areas, spread of the logarithm"},
-		{"flipped_faces", "Faces flipped or without area"},
-		{"flipped_by_rounding", "Further ones as floats"},
-		{"finish_moved", "Points moved by the repair"},
-		{"ended_early", "Searches ended by the bound on their work"},
-		{"flips", "Flips of edges"},
-		{"refinement_points", "Points added by the refinement"},
-		{"edge_swaps", "Edges swapped"},
-		{"boundary_splits", "Boundary edges split"},
-		{"euler_characteristic", "Euler characteristic"},
-		{"genus", "Genus"},
-		{"boundary_loops", "Boundary loops"},
-		{"components", "Components"},
-		{"cut_nonmanifold_edges", "Non-manifold edges, cut open"},
-		{"split_vertices", "Vertices with several places"},
-		{"duplicate_faces", "Faces with the vertices of another"},
-		{"one_sided_components", "One-sided components, cut open"},
-		{"degenerate_faces", "Faces drawn as a segment or a point"},
-		{"cones", "Cones"},
-		{"chosen_seam_edges", "Edges of the chosen seams"},
-		{"chosen_seam_length", "Length of the chosen seams"},
-		{"seam_edges", "Edges of the other seams"},
-		{"seam_length", "Length of the other seams"},
-		{"seam_length_relative", "The same over the root of the area"},
-		{"charts", "Charts"},
-		{"occupancy", "Share of the square that is covered"},
-		{"capped_holes", "Holes capped"},
-		{"overlapping_charts", "Charts that overlap"},
-		{"overlapping_faces", "Faces that overlap"},
-		{"unequal_seams", "Edges of seams with sides of unequal length"},
-		{"overlap_cuts", "Edges cut against overlap"},
-		{"stretch", "Stretch, mean by area (4: none)"},
-		{"objective", "Stretch and the price of the seams"},
-		{"target_used", "Target used, by its number"},
-		{"expected_spread", "Spread of areas that was expected"},
-		{"cone_vertices", "Vertices of the placed cones"},
-		{"cone_curvatures", "Curvatures of the placed cones (rad)"},
-		{"boundary_ratio_min", "Boundary edges: least change of length"},
-		{"boundary_ratio_max", "Boundary edges: largest change of length"},
-		{"torus_tau_re", "Modulus of the torus, real part"},
-		{"torus_tau_im", "Modulus of the torus, imaginary part"},
-		{"annulus_modulus", "Modulus of the annulus"},
-		{"rectangle_aspect", "Longer over shorter side of the rectangle"},
-		{"holonomy_error", "Largest error of a quarter turn (rad)"},
-		{"period_matrix", "Period matrix"},
-		{"period_error", "Bound of its error"},
-		{"texture_scale", "Texels for a unit of length, new over old"},
-		{"sphere_qc_area_mean", "Sphere: distortion of angles, mean by area"},
-		{"sphere_area_distortion_mean", "Sphere: distortion of areas, mean factor"},
-		{"sphere_flipped_faces", "Sphere: faces flipped"},
-		{"hyperbolic_area", "Hyperbolic area"},
-		{"left_out_components", "Components without a hyperbolic metric, beside the disk"},
-		{"relation_error", "How far the layout is from closing up"},
-		{"generators", "Generators of the Fuchsian group"},
-		{"generators_low", "The same, what a float cannot hold of them"},
-		{"generators_error", "Error of their relation"}};
-	return labels.at(key);
 }
 
 void addPlacedCones(const ricci::Parametrization& map, Results& results)
@@ -226,15 +158,20 @@ void addPlacedCones(const ricci::Parametrization& map, Results& results)
 		vertices.push_back(v);
 		curvatures.push_back(map.targetCurvature[static_cast<std::size_t>(v)]);
 	}
-	results.emplace_back("cone_vertices", std::move(vertices));
-	results.emplace_back("cone_curvatures", std::move(curvatures));
+	results.push_back({"cone_vertices", std::move(vertices), "Vertices of the placed cones"});
+	results.push_back(
+		{"cone_curvatures", std::move(curvatures), "Curvatures of the placed cones (rad)"});
 }
 
 void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 {
-	results.emplace_back("sphere_qc_area_mean", sphere.qcAreaMean);
-	results.emplace_back("sphere_area_distortion_mean", sphere.areaDistortionMean);
-	results.emplace_back("sphere_flipped_faces", sphere.flippedFaces);
+	results.push_back(
+		{"sphere_qc_area_mean", sphere.qcAreaMean, "Sphere: distortion of angles, mean by area"});
+	results.push_back(
+		{"sphere_area_distortion_mean",
+		 sphere.areaDistortionMean,
+		 "Sphere: distortion of areas, mean factor"});
+	results.push_back({"sphere_flipped_faces", sphere.flippedFaces, "Sphere: faces flipped"});
 }
 
 void addGenerators(const ricci::FuchsianGroup& group, Results& results)
@@ -245,9 +182,10 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 			high.push_back(x.high);
 			low.push_back(x.low);
 		}
-	results.emplace_back("generators", std::move(high));
-	results.emplace_back("generators_low", std::move(low));
-	results.emplace_back("generators_error", group.relationError);
+	results.push_back({"generators", std::move(high), "Generators of the Fuchsian group"});
+	results.push_back(
+		{"generators_low", std::move(low), "The same, what a float cannot hold of them"});
+	results.push_back({"generators_error", group.relationError, "Error of their relation"});
 }
 
 std::string toSentence(const Results& results, const std::string& choice)
@@ -288,7 +226,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 				 ? "The method 'Intrinsic flips' keeps them."
 				 : "The output 'Common refinement' keeps them, and so does a mesh without needles "
 				   "('Remeshing: Isotropic Explicit Remeshing')."));
-	for (const auto& [key, value] : results)
+	for (const auto& [key, value, label] : results)
 		if (key == "texture_scale" && std::get<double>(value) < kCoarser)
 			lines.push_back(
 				"The new image is coarser than the old ones, with " +
@@ -342,7 +280,7 @@ std::string colourRamp(const Results& results)
 std::vector<std::string> toLogLines(const Results& results)
 {
 	const auto split = std::find_if(results.begin(), results.end(), [](const auto& result) {
-		return result.first == "euler_characteristic";
+		return result.key == "euler_characteristic";
 	});
 	return {
 		"Result: " + keyValueLine(results.begin(), split),

@@ -8,20 +8,22 @@
 #include <ricci/sphere_map.h>
 
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace filter_ricci {
 
 using Value = std::variant<bool, int, double, std::vector<double>>;
-using Results = std::vector<std::pair<std::string, Value>>;
+struct Result
+{
+	std::string key; ///< by which scripts know it
+	Value value;
+	const char* label; ///< what a person calls it
+};
+using Results = std::vector<Result>;
 
 /// The report under the names that scripts read; an invariant that does not exist is left out.
 Results toResults(const ricci::Report& report);
-
-/// What a person calls the result with that key.
-std::string resultLabel(const std::string& key);
 
 /// Adds the cones that were placed, if any.
 void addPlacedCones(const ricci::Parametrization& map, Results& results);

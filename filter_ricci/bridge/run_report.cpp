@@ -326,8 +326,8 @@ std::string toHtml(const RunReport& report)
 		 << "<p>0 where areas keep their ratios. Faces beyond the scale: "
 		 << areas.below + areas.above << ".</p>\n"
 		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
-	for (const auto& [key, value] : report.results)
-		page << tableRow({key, resultLabel(key), text(value)});
+	for (const auto& [key, value, label] : report.results)
+		page << tableRow({key, label, text(value)});
 	page << "</table>\n</section>\n<div>\n<section>\n"
 		 << "<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(data)
@@ -348,8 +348,8 @@ std::string toCsv(const RunReport& report)
 	csv << "setting,,mesh," << csvField(report.mesh) << "\n";
 	for (const ReportLine& line : report.settings)
 		csv << "setting,," << line.key << "," << csvField(line.value) << "\n";
-	for (const auto& [key, value] : report.results)
-		csv << "result,," << key << "," << csvField(text(value)) << "\n";
+	for (const Result& result : report.results)
+		csv << "result,," << result.key << "," << csvField(text(result.value)) << "\n";
 	for (const ricci::FlowState& state : report.map.report.flowStates)
 		csv << "newton," << state.component << "," << state.step << "," << state.residual << "\n";
 	addHistogram(csv, "qc_histogram,vertices,", distortionHistogram(report.map.report.qcValues));

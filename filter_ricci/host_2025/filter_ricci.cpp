@@ -21,8 +21,8 @@ QVariant toVariant(Number value)
 std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
 {
 	std::map<std::string, QVariant> map;
-	for (const auto& [key, value] : results)
-		map[key] = std::visit([](const auto& v) { return toVariant(v); }, value);
+	for (const filter_ricci::Result& result : results)
+		map[result.key] = std::visit([](const auto& v) { return toVariant(v); }, result.value);
 	return map;
 }
 
@@ -99,6 +99,7 @@ std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
 			cb, [this](const std::string& line) { this->log(line); });
 		const auto outcome =
 			filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
+		progress.warn(outcome.sentences);
 		postConditionMask = static_cast<unsigned int>(outcome.changedElements);
 		return toMap(outcome.results);
 	}

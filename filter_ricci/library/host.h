@@ -133,7 +133,6 @@ inline MeshModel* addMesh(MeshDocument& md, const std::string& label)
 	return md.meshes.back().get();
 }
 
-/// Of the layers that a run has added the last ones go first, or all.
 inline void removeMesh(MeshDocument& md, const MeshModel* mesh)
 {
 	for (auto i = md.meshes.begin(); i != md.meshes.end(); ++i)

@@ -138,48 +138,6 @@ std::string lower(std::string text)
 	return text;
 }
 
-/// The whole text as a number, in no locale.
-template<class Number>
-bool read(const std::string& text, Number& number)
-{
-	std::istringstream stream(text);
-	stream.imbue(std::locale::classic());
-	return stream >> number && (stream >> std::ws).eof();
-}
-
-bool readAny(const std::string& text, double& number)
-{
-	const std::string word = lower(text);
-	const bool isNegative = !word.empty() && word[0] == '-';
-	const std::string name = word.substr(isNegative || (!word.empty() && word[0] == '+') ? 1 : 0);
-	if (name == "nan")
-		number = std::numeric_limits<double>::quiet_NaN();
-	else if (name == "inf" || name == "infinity")
-		number = (isNegative ? -1.0 : 1.0) * std::numeric_limits<double>::infinity();
-	else
-		return read(text, number);
-	return true;
-}
-
-void setChoice(Parameter& parameter, const std::string& text)
-{
-	int number = 0;
-	if (read(text, number)) {
-		parameter.value = number;
-		return;
-	}
-	std::string names;
-	for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
-		if (lower(parameter.choices[i]) == lower(text)) {
-			parameter.value = static_cast<int>(i);
-			return;
-		}
-		names += (i == 0 ? "'" : ", '") + parameter.choices[i] + "'";
-	}
-	throw Misuse(
-		"'" + text + "' is no choice of {" + parameter.name + "}: it is one of " + names + ".");
-}
-
 class Listener : public ricci::Progress
 {
 public:
@@ -189,6 +147,12 @@ public:
 	{
 		if (m_listener != nullptr)
 			m_listener(m_context, -1.0, line.c_str());
+	}
+
+	void warn(const std::string& line)
+	{
+		if (m_listener != nullptr)
+			m_listener(m_context, -2.0, line.c_str());
 	}
 
 	bool update(double fraction, const std::string& what) override
@@ -357,29 +321,9 @@ void LibraryRun::setParameter(const std::string& name, const std::string& value)
 	if (parameter == nullptr)
 		throw Misuse(
 			"The filter has no parameter '" + name + "': ricci_description() names those it has.");
-	const auto use = [&](bool isRead, const char* what) {
-		if (!isRead)
-			throw Misuse("{" + name + "} must be " + what + ", not '" + value + "'.");
-	};
-	if (!parameter->choices.empty())
-		setChoice(*parameter, value);
-	else if (bool* const is = std::get_if<bool>(&parameter->value)) {
-		const std::string word = lower(value);
-		use(word == "true" || word == "false" || word == "1" || word == "0", "true or false");
-		*is = word == "true" || word == "1";
-	}
-	else if (std::holds_alternative<int>(parameter->value)) {
-		int number = 0;
-		use(read(value, number), "a whole number");
-		parameter->value = number;
-	}
-	else if (std::holds_alternative<double>(parameter->value)) {
-		double number = 0.0;
-		use(readAny(value, number), "a number");
-		parameter->value = number;
-	}
-	else
-		parameter->value = value;
+	const std::string problem = setFromText(*parameter, value);
+	if (!problem.empty())
+		throw Misuse(problem);
 }
 
 void LibraryRun::setArray(const std::string& name, const ricci_array* given)
@@ -557,6 +501,8 @@ void LibraryRun::execute()
 	fill(document);
 	Listener listener(m_listener, m_context);
 	const Outcome outcome = applyFilter(m_filter, m_parameters, document, listener);
+	for (std::size_t i = 1; i < outcome.sentences.size(); ++i)
+		listener.warn(outcome.sentences[i]);
 
 	std::vector<Array> arrays;
 	Outputs outputs(arrays);
@@ -580,8 +526,8 @@ void LibraryRun::execute()
 		});
 	if (!valueOf<std::string>(m_parameters, "carry_texture").empty())
 		outputs.picture(model.pictures.front());
-	for (const auto& [key, value] : outcome.results)
-		outputs.result("results." + key, value);
+	for (const Result& result : outcome.results)
+		outputs.result("results." + result.key, result.value);
 	for (std::size_t i = 1; i < document.meshes.size(); ++i)
 		outputs.layer(*document.meshes[i]);
 	m_outputs.swap(arrays);

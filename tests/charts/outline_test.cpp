@@ -191,9 +191,38 @@ TEST(PackCharts, ThinAndSmallChartsHaveRoomOfTheirOwn)
 				}
 			}
 	Parametrization wide = boxes({{2.0, 1.0}}); // its own box
-	packCharts(wide, {false, 0.0, {}}, ChartTurns::None);
+	packCharts(wide, {false, 0.0, ChartTurns::Free, {}}, ChartTurns::None);
 	EXPECT_EQ(wide.charts[0].box.min, (Point2{0.0, 0.0}));
 	EXPECT_EQ(wide.charts[0].box.max, (Point2{2.0, 1.0}));
+}
+
+/// Of a chart of any shape, the turn that lays it along the axes is found to rounding; of a round one there is none.
+TEST(Upright, IsAnOutlineOfRightAngles)
+{
+	const std::vector<Point2> corners{
+		{0, 0}, {4, 0}, {4, 1}, {3, 1}, {3, 2.5}, {2, 2.5}, {2, 1}, {0, 1}};
+	for (const double angle : {0.0, 0.02, 0.7, 0.785, 1.5, -1.2}) {
+		const std::complex<double> own = std::polar(1.0, angle);
+		Outline outline;
+		for (std::size_t i = 0; i < corners.size(); ++i)
+			outline.push_back(
+				{asPoint(own * asComplex(corners[i])),
+				 asPoint(own * asComplex(corners[(i + 1) % corners.size()]))});
+		const std::complex<double> turn = uprightTurn(outline), whole = turn * own;
+		EXPECT_NEAR(std::abs(turn), 1.0, 1e-14);
+		EXPECT_NEAR(std::abs(whole.real() * whole.imag()), 0.0, 1e-14); // by right angles from upright
+		// A round bay of less than half the outline does not matter, a larger one does.
+		for (const double radius : {1.5, 4.0}) {
+			Outline round = outline;
+			for (int i = 0; i < 60; ++i) {
+				const auto at = [&](int k) {
+					return asPoint(own * std::polar(radius, 2.0 * kPi * k / 60) + 9.0);
+				};
+				round.push_back({at(i + 1), at(i)});
+			}
+			EXPECT_EQ(uprightTurn(round) != 0.0, radius < 2.0);
+		}
+	}
 }
 
 /// n squares of no extent with the margin m round each, side by side in a square of side 1: the

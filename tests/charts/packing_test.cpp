@@ -263,13 +263,13 @@ TEST(Packing, RefusesMarginsThatLeaveNoRoomAndWhatFloatsCannotHold)
 	const SurfaceMesh mesh = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
 	const auto refusal = [&](double margin, InvalidOption::Problem problem) {
 		Options options = packing(margin);
-		options.placeBoxes = nullptr; // one box beside the other
+		options.placeBoxes = nullptr;
 		return refusalFor<InvalidOption>(
 			problem, {}, [&] { parametrizeEuclidean(mesh, {}, options); });
 	};
 	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()})
 		EXPECT_EQ(refusal(margin, InvalidOption::ChartMargin).bound, kMaxChartMargin);
-	for (double margin : {0.25, 0.1}) { // by area alone, and in one row
+	for (double margin : {0.25, 0.13}) { // by area alone, and in seven columns
 		const auto error = refusal(margin, InvalidOption::ChartMarginTooWide);
 		EXPECT_EQ(error.value, margin);
 		EXPECT_EQ(error.count, 40u);

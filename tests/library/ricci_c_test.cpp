@@ -319,7 +319,7 @@ const Wrong kWrong[] = {
 	{"NoSuchChoice",
 	 [](CRun& r) { return ricci_set_parameter(r, "finish", "Best"); },
 	 RICCI_MISUSE,
-	 "'Best' is no choice of finish: it is one of 'None', 'Repair'"},
+	 "finish must be one of 'None', 'Repair', .*, not 'Best'"},
 	{"NumberOfNoChoice",
 	 [](CRun& r) { return executed(r, "finish", "17"); },
 	 RICCI_REFUSED,

@@ -99,6 +99,30 @@ TEST(Distortion, OfTrianglesWithoutArea)
 	}
 }
 
+/// Needles that no texel shows do not count, unless they are so many that they are seen together.
+TEST(Distortion, OfUnseenNeedlesIsNotInTheEnergy)
+{
+	for (const int needles : {0, 1, 40, 400}) {
+		// A unit square, and on its upper side strips so low that their triangles are needles.
+		const double low = 0x1p-16;
+		SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
+		std::vector<Plane> plane = flatMesh(mesh).corners().values();
+		for (int i = 0; i < needles; ++i) {
+			const double y = 1.0 + i * low;
+			const int n = static_cast<int>(mesh.positions.size());
+			mesh.positions.insert(mesh.positions.end(), {{0, y, 0}, {1, y, 0}, {0.5, y + low, 0}});
+			mesh.triangles.push_back({n, n + 1, n + 2});
+			plane.push_back({{{0, y}, {1, y}, {0.5, y + 100 * low}}}); // stretched a hundredfold
+		}
+		const FlatMesh flat = flatMesh(mesh, plane);
+		const bool isSeen = needles * 0.5 * low > 0x1p-14;
+		EXPECT_EQ(unseenTriangles(flat).size(), isSeen ? 0U : at(needles));
+		const double area = isSeen ? needles * 0.5 * low : 0.0;
+		const double forth = 2.0 + area * (1.0 + 1e4), back = 2.0 + area * (1.0 + 1e-4);
+		EXPECT_NEAR(stretchEnergy(flat) * (1.0 + area) / std::sqrt(forth * back), 2.0, 1e-9);
+	}
+}
+
 TEST(Distortion, ThePercentileLeavesItsShareOfTheValuesBelow)
 {
 	std::vector<double> values(1000);

@@ -97,6 +97,29 @@ Parametrization withOtherCones(
 	return map;
 }
 
+/// The plan with the holes capped where that is expected to cost less: a loop round which the surface is nearly flat needs
+/// no seams to it then.
+/// \param plan complete; its holes are those that are capped by their length
+FlowPlan withCheaperHoles(
+	const Component& component, const VertexInput& input, const Options& options, FlowPlan plan)
+{
+	const int open = plan.domain.surface.topology.type.boundaryLoops - plan.domain.holes;
+	if (!mayUnfold(component, options) || options.holes != Holes::ShortCapped || open < 2 ||
+		!plan.target.expected)
+		return plan;
+	const double cost = plan.target.expected->total();
+	auto capped = attempt("the holes stay boundaries", [&] {
+		Options other = options;
+		other.holes = Holes::Capped;
+		FlowPlan next = startOfPlan(component, input, other);
+		completePlan(other, std::min(cost, plan.request.alternative), next);
+		return next;
+	});
+	return capped && capped->target.expected && capped->target.expected->total() < cost
+			   ? *std::move(capped)
+			   : std::move(plan);
+}
+
 } // namespace
 
 MapCost costOf(const Parametrization& map)
@@ -135,6 +158,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	};
 
 	completePlan(options, totalOf(unfolded), plan);
+	plan = withCheaperHoles(component, input, options, std::move(plan));
 	if (plan.target.expected) {
 		const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
 		const double cost = plan.target.expected->total();

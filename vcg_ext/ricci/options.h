@@ -140,6 +140,13 @@ constexpr double kMaxChartMargin = 0.25;
 using PlaceBoxes =
 	std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double padding)>;
 
+/// How charts may be turned while they are packed.
+enum class ChartTurns {
+	None,    ///< as the layout leaves them
+	Quarter, ///< by right angles
+	Free ///< charts whose outline is straight lie along the axes, others in any direction
+};
+
 /// How the charts of a map are packed.
 struct PackOptions
 {
@@ -151,7 +158,10 @@ struct PackOptions
 	/// share of its side, between 0 and kMaxChartMargin.
 	double chartMargin = 0.0;
 
-	/// One box beside the other where there is none.
+	/// Rectangle allows none, quarter turns across seams right angles only.
+	ChartTurns turns = ChartTurns::Free;
+
+	/// Close together in about a square where there is none, see sideBySide().
 	PlaceBoxes placeBoxes;
 };
 

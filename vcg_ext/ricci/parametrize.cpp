@@ -262,6 +262,12 @@ Parametrization complete(const SurfaceMesh& mesh, WholeMap whole)
 		triangleAreas(opened.positions, opened.triangles, opened.lengths);
 	report.seamLengthRelative =
 		report.seamLength / std::sqrt(std::accumulate(areas.begin(), areas.end(), 0.0));
+	const std::size_t unseen = unseenTriangles(map.mesh).size();
+	if (report.stretch && unseen > 0)
+		note(
+			std::to_string(unseen) + (unseen == 1 ? " face is" : " faces are") +
+				" lower than a texel of the largest texture and left out of the objective.",
+			map);
 	if (report.stretch)
 		report.objective = costOf(map.mesh, report.seamLength + report.chosenSeamLength).total();
 	toInputIndices(mesh, whole.opened, map);
@@ -278,6 +284,7 @@ void checkOptions(const Options& options)
 	requireChoice("rounding", options.cones.rounding, ConeRounding::QuarterTurns);
 	requireChoice("holes", options.holes, Holes::ShortCapped);
 	requireChoice("charts", options.charts, Charts::CutForRoom);
+	requireChoice("turns", options.turns, ChartTurns::Free);
 	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
 	if (options.cones.count < 0)

@@ -5,6 +5,7 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
+#include "boxes_side_by_side.h"
 
 #include <algorithm>
 #include <cmath>
@@ -350,12 +351,13 @@ std::vector<Point2> pointsOf(const Outline& outline)
 using Order = std::vector<std::size_t>; // of outlines
 
 /// The largest first.
-Order orderOf(const std::vector<Outline>& outlines)
+/// \param side of the square that is to hold them
+Order orderOf(const std::vector<Outline>& outlines, double side)
 {
 	std::vector<double> areas;
 	areas.reserve(outlines.size());
 	for (const Outline& outline : outlines)
-		areas.push_back(areaOf(outline));
+		areas.push_back(roundedShare(areaOf(outline), side * side));
 	Order order(outlines.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -431,7 +433,7 @@ std::vector<Motion> packOutlines(
 	double padding)
 {
 	const double reach = 0.5 * padding;
-	Order order = orderOf(outlines);
+	Order order = orderOf(outlines, side);
 	const std::size_t largest = order.front();
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
 

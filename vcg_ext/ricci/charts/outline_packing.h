@@ -2,18 +2,12 @@
 #ifndef RICCI_OUTLINE_PACKING_H
 #define RICCI_OUTLINE_PACKING_H
 
+#include "../options.h"
 #include "outline.h"
 
 #include <vector>
 
 namespace ricci {
-
-/// How charts may be turned while they are packed.
-enum class ChartTurns {
-	None,
-	Quarter, ///< by right angles against each other; one chart alone in any way
-	Free
-};
 
 /// Packs outlines into a square from the origin, by cells that they touch, one after the other. Each goes
 /// where the square that holds all so far is smallest, also in holes of others. The largest is the first, at

@@ -6,6 +6,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
+#include "boxes_side_by_side.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -72,18 +73,6 @@ double coveredArea(const FlatMesh& mesh)
 		doubled += std::abs(doubledArea(t));
 	}
 	return 0.5 * doubled;
-}
-
-/// One box beside the other.
-std::vector<Point2> inARow(const std::vector<Box2>& boxes, double padding)
-{
-	std::vector<Point2> shifts;
-	double x = boxes.empty() ? 0.0 : boxes.front().min[0];
-	for (const Box2& box : boxes) {
-		shifts.push_back({x - box.min[0], 0.0});
-		x += box.width() + padding;
-	}
-	return shifts;
 }
 
 /// Charts in a square: their motions, the box round them and the padding between it and the square.
@@ -160,6 +149,7 @@ struct OutlineTask
 	const std::vector<std::vector<int>>& triangles; ///< [chart]
 	const std::vector<Box2>& boxes;                 ///< [chart]
 	const std::vector<char>& isThin;                ///< [chart]
+	const std::vector<char>& isUpright;             ///< [chart] turned by right angles only
 	double side;                                    ///< of the square that holds the boxes
 	double padding;                                 ///< between charts
 };
@@ -168,14 +158,15 @@ struct OutlineTask
 /// \return without motions where they do not fit into the square of the task
 Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	const auto& [mesh, triangles, boxes, isThin, side, padding] = task;
+	const auto& [mesh, triangles, boxes, isThin, isUpright, side, padding] = task;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	const auto area = [&boxes = boxes](std::size_t i) {
 		return boxes[i].width() * boxes[i].height();
 	};
+	const double square = side * side;
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return area(a) > area(b);
+		return roundedShare(area(a), square) > roundedShare(area(b), square);
 	});
 	std::vector<std::size_t> large, small;
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
@@ -207,6 +198,9 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 		ofSmall.add(smallBoxes[k].max + shift[k]);
 	}
 	std::vector<ChartTurns> turnsOf(large.size(), turns);
+	for (std::size_t k = 0; k < large.size(); ++k)
+		if (isUpright[large[k]])
+			turnsOf[k] = ChartTurns::Quarter;
 	if (!small.empty()) {
 		outlines.push_back(borderOf(ofSmall));
 		turnsOf.push_back(ChartTurns::Quarter); // their boxes stay upright
@@ -229,6 +223,24 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	for (std::size_t k = 0; k < small.size(); ++k)
 		packing.motions[small[k]] = {motions.back().turn, asComplex(motions.back()(shift[k]))};
 	return packing;
+}
+
+/// Lays charts along the axes that have an upright turn.
+/// \return [chart] 1 for these
+std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, FlatMesh& mesh)
+{
+	std::vector<char> isUpright(triangles.size(), 0);
+	std::vector<Motion> motions(triangles.size());
+	tasksInParallel(
+		static_cast<int>(triangles.size()), threadsFor(mesh.size() / 32), [&](int chart) {
+			const std::size_t i = positionOf(chart);
+			const std::complex<double> turn = uprightTurn(outlineOf(mesh, triangles[i]));
+			isUpright[i] = turn != 0.0;
+			if (isUpright[i])
+				motions[i].turn = turn;
+		});
+	moveCharts(motions, mesh);
+	return isUpright;
 }
 
 void requireFloats(const Array<Point2>& places)
@@ -265,6 +277,11 @@ bool marginsMayFit(std::size_t charts, double margin)
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	checkChartMargin(options.chartMargin);
+	const auto triangles = map.mesh.trianglesByChart(map.charts.size());
+	std::vector<char> isUpright(triangles.size(), 0);
+	if (turns == ChartTurns::Free && options.turns != ChartTurns::None && options.normalizeUV)
+		isUpright = turnUpright(triangles, map.mesh);
+	const bool staysAsItIs = options.turns == ChartTurns::Quarter || isUpright.front();
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	// The square that holds all has this side at least.
 	double area = 0.0, extent = 0.0;
@@ -272,9 +289,8 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		area += box.width() * box.height();
 		extent = std::max(extent, box.extent());
 	}
-	const auto triangles = map.mesh.trianglesByChart(boxes.size());
 	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
-	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : inARow;
+	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : sideBySide;
 	const PlaceBoxes placeBoxes = [&](const std::vector<Box2>& some, double padding) {
 		std::vector<Point2> places = asked(some, padding);
 		if (places.size() != some.size())
@@ -291,15 +307,17 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		map.report.occupancy = coveredArea(map.mesh) / (packing.side() * packing.side());
 		return;
 	}
-	if (turns != ChartTurns::None && packing.side() > 0.0 &&
-		!(boxes.size() == 1 && isThin.front())) {
+	const ChartTurns mayTurn = std::min(turns, options.turns);
+	if (mayTurn != ChartTurns::None && packing.side() > 0.0 &&
+		!(boxes.size() == 1 && (isThin.front() || staysAsItIs))) {
 		const double padding = std::max(packing.padding, kMinPadding * packing.side());
-		Packing turned = boxes.size() == 1
-							 ? packAlone(map.mesh)
-							 : packByOutlines(
-								   {map.mesh, triangles, boxes, isThin, packing.side(), padding},
-								   placeBoxes,
-								   turns);
+		Packing turned =
+			boxes.size() == 1
+				? packAlone(map.mesh)
+				: packByOutlines(
+					  {map.mesh, triangles, boxes, isThin, isUpright, packing.side(), padding},
+					  placeBoxes,
+					  mayTurn);
 		const double share =
 			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
 		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
@@ -319,7 +337,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	packCharts(map, options, turns);
-	if (turns == ChartTurns::None)
+	if (std::min(turns, options.turns) == ChartTurns::None)
 		return;
 	const double area = map.mesh.area();
 	const auto worth = [&](const Parametrization& m) {

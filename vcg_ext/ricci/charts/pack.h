@@ -26,9 +26,10 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// may be too short for triangles that have to be given a height (repairInFloats()) gets a wider box.
 /// Fills Chart::box.
 ///
-/// With \p normalizeUV charts may be turned, too, and the largest placed by their outlines, with the
+/// With \p normalizeUV charts may be turned, too, as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others in any
+/// way. The largest are placed by their outlines, with the
 /// boxes of the small and the thin ones as one more chart, where the square gets smaller by
-/// kWorthTurning. One chart is turned as the smallest square round it lies. The report's occupancy is
+/// kWorthTurning. One chart that is not upright is turned as the smallest square round it lies. The report's occupancy is
 /// set in all cases.
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
 /// InvalidMesh BeyondFloats if coordinates that keep their scale are too large or too small for float,

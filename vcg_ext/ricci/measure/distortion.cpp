@@ -21,6 +21,9 @@ namespace ricci {
 
 namespace {
 
+/// Of the root of a surface's area: a texel of the largest texture, of 16384 texels, whose charts fill it.
+constexpr double kTexel = 0x1p-14;
+
 /// A triangle in space laid out in the plane, its first corner at 0, the second on the positive real
 /// axis.
 struct LaidOutTriangle
@@ -275,10 +278,34 @@ FlippedCount countFlipped(const FlatMesh& mesh)
 	return count;
 }
 
+std::vector<int> unseenTriangles(const FlatMesh& mesh)
+{
+	const double area = mesh.area(), least = kTexel * std::sqrt(area);
+	double own = 0.0;
+	std::vector<int> unseen;
+	for (const int f : mesh.points.indices()) {
+		const std::array<double, 3>& l = mesh.lengths[f];
+		const double doubled = 2.0 * euclideanArea(l);
+		if (doubled < least * std::max({l[0], l[1], l[2]})) {
+			own += 0.5 * doubled;
+			unseen.push_back(f);
+		}
+	}
+	if (!(own < kTexel * area))
+		unseen.clear();
+	return unseen;
+}
+
 double stretchEnergy(const FlatMesh& mesh)
 {
 	double forth = 0.0, back = 0.0, total = 0.0;
+	const std::vector<int> unseen = unseenTriangles(mesh);
+	auto next = unseen.begin();
 	for (const int f : mesh.points.indices()) {
+		if (next != unseen.end() && *next == f) {
+			++next;
+			continue;
+		}
 		const auto [ahead, behind] = mesh.stretch(f);
 		forth += ahead;
 		back += behind;

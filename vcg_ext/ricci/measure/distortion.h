@@ -74,8 +74,12 @@ Array<Triangle2> chordTriangles(const FlatMesh& mesh);
 /// Geodesic triangles in the Poincaré disk of the wrong orientation, or without area, as far as rounding can tell.
 int flippedInDisk(const FlatMesh& mesh);
 
+/// Triangles that no texture shows: lower than a texel of the largest one, and all together of less area than a row of
+/// its texels. In increasing order; none where they have more.
+std::vector<int> unseenTriangles(const FlatMesh& mesh);
+
 /// The energy of a map, see MapCost; infinite where a triangle has no area in the plane. Orientation does
-/// not count. Triangles without area in space are left out.
+/// not count. unseenTriangles() are left out: a few needles would else decide which map is taken.
 double stretchEnergy(const FlatMesh& mesh);
 
 /// \param seamLength on the surface

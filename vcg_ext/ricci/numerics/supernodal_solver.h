@@ -232,6 +232,11 @@ private:
 	/// A complex number among the real and imaginary parts of many, for the machine's vectors.
 	using Pair = Eigen::Array2d;
 	static Eigen::Map<Pair> at(double* parts, Long i) { return Eigen::Map<Pair>(parts + 2 * i); }
+	/// By hand: clang's code for Eigen's product waits for it, and takes up to twice as long.
+	static Pair times(double factor, const Pair& pair)
+	{
+		return {factor * pair[0], factor * pair[1]};
+	}
 
 	void solveForward(Two, const Supernode& node, double* x, double* below, double* above) const
 	{
@@ -243,7 +248,7 @@ private:
 			const Pair solved = at(own, c) / column[c];
 			at(own, c) = solved;
 			for (int r = c + 1; r < node.width; ++r)
-				at(own, r) -= column[r] * solved;
+				at(own, r) -= times(column[r], solved);
 		}
 		std::fill(below, below + 2 * node.height, 0.0);
 		int c = 0;
@@ -271,7 +276,7 @@ private:
 		for (int r = 0; r < node.height; ++r) {
 			Pair sum = at(below, r);
 			for (int i = 0; i < Count; ++i)
-				sum += values[i][r] * solved[i];
+				sum += times(values[i][r], solved[i]);
 			at(below, r) = sum;
 		}
 	}
@@ -286,14 +291,14 @@ private:
 			Pair sum = at(own, c), others = Pair::Zero(); // two, which do not wait for each other
 			int r = 0;
 			for (; r + 2 <= node.height; r += 2) {
-				sum -= values[r] * at(below, r);
-				others -= values[r + 1] * at(below, r + 1);
+				sum -= times(values[r], at(below, r));
+				others -= times(values[r + 1], at(below, r + 1));
 			}
 			if (r < node.height)
-				sum -= values[r] * at(below, r);
+				sum -= times(values[r], at(below, r));
 			sum += others;
 			for (r = c + 1; r < node.width; ++r)
-				sum -= column[r] * at(own, r);
+				sum -= times(column[r], at(own, r));
 			at(own, c) = sum / column[c];
 		}
 	}

@@ -16,7 +16,6 @@
 #include <vcg/complex/allocate.h>
 #include <vcg/complex/allocate_all_or_none.h>
 #include <vcg/complex/complex.h>
-#include <vcg/space/boxes_side_by_side.h>
 
 #include <algorithm>
 #include <array>
@@ -53,7 +52,6 @@ public:
 	/// ricci_seams.h. Faces behind its end have none but those that the flow finds.
 	typedef ricci::SideMarks SideMarks;
 
-	/// The charts are packed by BoxesSideBySide, whatever placeBoxes is.
 	typedef ricci::Options Params;
 	typedef ricci::HyperbolicOptions HyperbolicParams;
 
@@ -67,8 +65,6 @@ public:
 	static Result
 	Compute(const MeshType& m, const Params& par, const SideMarks& seams = SideMarks())
 	{
-		Params options = par;
-		options.placeBoxes = PlaceSideBySide;
 		return Run(
 			m,
 			seams,
@@ -76,7 +72,7 @@ public:
 				par.target == ricci::TargetCurvature::SelectedCones,
 			par.target == ricci::TargetCurvature::Prescribed,
 			[&](const ricci::SurfaceMesh& mesh, const ricci::VertexInput& input) {
-				return ricci::parametrizeEuclidean(mesh, input, options);
+				return ricci::parametrizeEuclidean(mesh, input, par);
 			});
 	}
 
@@ -425,20 +421,6 @@ private:
 		// A quality of type double may have come from a file that holds floats.
 		input.precision = double(std::numeric_limits<float>::epsilon());
 		return input;
-	}
-
-	/// See ricci::PlaceBoxes.
-	static std::vector<ricci::Point2>
-	PlaceSideBySide(const std::vector<ricci::Box2>& boxes, double padding)
-	{
-		std::vector<Box2<double>> own;
-		for (const ricci::Box2& box : boxes)
-			own.push_back(
-				Box2<double>(Point2d(box.min[0], box.min[1]), Point2d(box.max[0], box.max[1])));
-		std::vector<ricci::Point2> shifts;
-		for (const Point2d& shift : BoxesSideBySide::Shifts(own, padding))
-			shifts.push_back({shift[0], shift[1]});
-		return shifts;
 	}
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <gtest/gtest.h>
+#include <ricci/charts/boxes_side_by_side.h>
 
-#include <vcg/space/boxes_side_by_side.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,10 @@
 #include <tuple>
 #include <vector>
 
-using ricci::testing::Random;
-using vcg::BoxesSideBySide;
-using vcg::Point2d;
-
+namespace ricci::testing {
 namespace {
 
-using Box = BoxesSideBySide::Box;
+using Box = Box2;
 
 /// Extents over \p orders powers of ten, at random places.
 std::vector<Box> randomBoxes(int n, double orders, std::uint64_t seed)
@@ -25,21 +22,22 @@ std::vector<Box> randomBoxes(int n, double orders, std::uint64_t seed)
 	Random random(seed);
 	std::vector<Box> boxes;
 	for (int i = 0; i < n; ++i) {
-		const Point2d corner(random.real(-9, 9), random.real(-9, 9));
+		const double x = random.real(-9, 9), y = random.real(-9, 9);
+		const Point2 corner{x, y};
 		const double width = std::pow(10.0, random.real(-orders, 0));
 		const double height = std::pow(10.0, random.real(-orders, 0));
-		boxes.emplace_back(corner, corner + Point2d(width, height));
+		boxes.push_back({corner, {corner[0] + width, corner[1] + height}});
 	}
 	return boxes;
 }
 
 std::vector<Box> moved(std::vector<Box> boxes, double padding)
 {
-	const auto shifts = BoxesSideBySide::Shifts(boxes, padding);
+	const auto shifts = sideBySide(boxes, padding);
 	EXPECT_EQ(shifts.size(), boxes.size());
 	for (std::size_t i = 0; i < boxes.size(); ++i) {
-		boxes[i].min += shifts[i];
-		boxes[i].max += shifts[i];
+		boxes[i].min = boxes[i].min + shifts[i];
+		boxes[i].max = boxes[i].max + shifts[i];
 	}
 	return boxes;
 }
@@ -64,12 +62,10 @@ double squareOf(const std::vector<Box>& boxes)
 {
 	Box whole;
 	for (const Box& box : boxes)
-		whole.Add(box);
-	const double side = std::max(whole.DimX(), whole.DimY());
+		whole.add(box);
+	const double side = whole.extent();
 	return side * side;
 }
-
-} // namespace
 
 TEST(BoxesSideBySide, NoTwoOverlapAndTheRoomIsKept)
 {
@@ -88,8 +84,8 @@ TEST(BoxesSideBySide, BoxesWithoutExtentAreApartToo)
 	for (int n : {3, 600}) {
 		std::vector<Box> boxes = randomBoxes(n, 1.0, 8);
 		for (int i = 0; i < n; i += 2)
-			boxes[static_cast<std::size_t>(i)].max[i % 4 / 2] =
-				boxes[static_cast<std::size_t>(i)].min[i % 4 / 2];
+			boxes[static_cast<std::size_t>(i)].max[static_cast<std::size_t>(i % 4 / 2)] =
+				boxes[static_cast<std::size_t>(i)].min[static_cast<std::size_t>(i % 4 / 2)];
 		EXPECT_EQ(pairsTooNear(moved(boxes, 0.0), 0.0), 0);
 		for (Box& box : boxes)
 			box.max = box.min;
@@ -103,12 +99,25 @@ TEST(BoxesSideBySide, FillTwoThirdsOfTheSquare)
 {
 	std::vector<std::vector<Box>> cases{randomBoxes(4000, 0.5, 9)};
 	for (std::size_t n : {16u, 100u, 512u, 513u, 2500u, 10000u})
-		cases.emplace_back(n, Box(Point2d(5, 5), Point2d(6, 6)));
+		cases.emplace_back(n, Box{{5, 5}, {6, 6}});
 	for (const std::vector<Box>& boxes : cases) {
 		double area = 0.0;
 		for (const Box& box : boxes)
-			area += box.DimX() * box.DimY();
+			area += box.width() * box.height();
 		EXPECT_LT(squareOf(moved(boxes, 0.0)), 1.5 * area) << boxes.size();
+	}
+}
+
+/// Also boxes that differ by rounding: the first one comes first.
+TEST(BoxesSideBySide, EqualBoxesHaveTheOrderThatTheyAreGivenIn)
+{
+	for (const std::size_t n : {40u, 600u}) {
+		std::vector<Box> equal(n, Box{{0, 0}, {0.1, 0.3}}), nearly = equal;
+		for (std::size_t i = 0; i < n; ++i)
+			nearly[i].max[1] += 1e-16 * static_cast<double>(i % 7);
+		const auto a = sideBySide(equal, 0.01), b = sideBySide(nearly, 0.01);
+		for (std::size_t i = 0; i < n; ++i)
+			EXPECT_LT(distance(a[i], b[i]), 1e-12) << i;
 	}
 }
 
@@ -116,5 +125,8 @@ TEST(BoxesSideBySide, OneBoxStays)
 {
 	const auto boxes = randomBoxes(1, 0.0, 10);
 	EXPECT_EQ(moved(boxes, 0.5).front().min, boxes.front().min);
-	EXPECT_TRUE(BoxesSideBySide::Shifts({}, 0.5).empty());
+	EXPECT_TRUE(sideBySide({}, 0.5).empty());
 }
+
+} // namespace
+} // namespace ricci::testing
