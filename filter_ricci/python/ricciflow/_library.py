@@ -27,7 +27,7 @@ class _Array(ctypes.Structure):
 
 _LISTENER = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
 _POINTER = ctypes.POINTER(_Array)
-_FUNCTIONS = {  # name without ricci_ -> result, arguments
+_FUNCTIONS = {  # result and arguments
     "c_version": (ctypes.c_int32,),
     "library_version": (ctypes.c_char_p,),
     "solver": (ctypes.c_char_p,),
@@ -48,22 +48,24 @@ _FUNCTIONS = {  # name without ricci_ -> result, arguments
 
 
 def _load():
+    """The functions of the library, by their names without ricci_."""
     try:
         library = ctypes.CDLL(PATH)
     except OSError as problem:
         raise ImportError(f"The library of ricciflow cannot be loaded, so the package is one for "
                           f"another system: {problem}") from None
+    functions = {}
     for name, (result, *arguments) in _FUNCTIONS.items():
-        function = getattr(library, "ricci_" + name)
+        functions[name] = function = getattr(library, "ricci_" + name)
         function.restype, function.argtypes = result, arguments
-    if library.ricci_c_version() != INTERFACE:
+    if functions["c_version"]() != INTERFACE:
         raise ImportError(f"{PATH} is of another version of ricciflow: install the package again")
-    return library
+    return functions
 
 
 def _described():
     """Both filters, each a dictionary with name, python_name, info and parameters."""
-    described = json.loads(LIBRARY.ricci_description().decode())
+    described = json.loads(LIBRARY["description"]().decode())
     for parameter in (p for description in described for p in description["parameters"]):
         if parameter["type"] == "float":
             parameter["default"] = float(parameter["default"])
@@ -71,8 +73,7 @@ def _described():
 
 
 LIBRARY = _load()
-VERSION, SOLVER = (function().decode() for function in (LIBRARY.ricci_library_version,
-                                                        LIBRARY.ricci_solver))
+VERSION, SOLVER = (LIBRARY[name]().decode() for name in ("library_version", "solver"))
 DESCRIPTIONS = _described()
 
 
@@ -100,7 +101,7 @@ class _Run:
     """A run of the library, given back at the end of the block."""
 
     def __init__(self, number):
-        self.pointer = LIBRARY.ricci_create(number)
+        self.pointer = LIBRARY["create"](number)
         if not self.pointer:
             raise MemoryError
 
@@ -108,13 +109,13 @@ class _Run:
         return self
 
     def __exit__(self, *_):
-        LIBRARY.ricci_free(self.pointer)
+        LIBRARY["free"](self.pointer)
 
     def call(self, function, *arguments):
-        code = getattr(LIBRARY, "ricci_" + function)(self.pointer, *arguments)
+        code = LIBRARY[function](self.pointer, *arguments)
         if code == OK:
             return
-        text = LIBRARY.ricci_message(self.pointer).decode()
+        text = LIBRARY["message"](self.pointer).decode()
         if code in (REFUSED, TIMED_OUT, NO_MEMORY):
             raise (ValueError if text.startswith("The value ") else Refused)(text)
         raise RuntimeError(text)
@@ -126,8 +127,8 @@ class _Run:
 
     def outputs(self):
         found, array = {}, _Array()
-        for number in range(LIBRARY.ricci_output_count(self.pointer)):
-            name = LIBRARY.ricci_output_name(self.pointer, number)
+        for number in range(LIBRARY["output_count"](self.pointer)):
+            name = LIBRARY["output_name"](self.pointer, number)
             self.call("output", name, ctypes.byref(array))
             found[name.decode()] = _from_array(array)
         return found

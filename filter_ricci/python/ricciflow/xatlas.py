@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """In place of `xatlas.parametrize`: change the import, and the same call gives fewer charts.
 
-    from pymeshlab_ricci import xatlas
+    from ricciflow import xatlas
     vmapping, indices, uvs = xatlas.parametrize(positions, indices)
 """
 
