@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the Python package for other people's machines: a wheel for each platform and the source
-# distribution, in build/release/. From Linux, by zig, which the package index has, and from the sources of
+# distribution, in build/release/wheels/. From Linux, by zig, which the package index has, and from the sources of
 # CHOLMOD in Debian's archive. The same sources give the same wheels, bit by bit.
 #
 #     bash filter_ricci/wheels.sh                        # all platforms, five minutes of a processor each
@@ -113,7 +113,7 @@ make_wheel() {
 	}
 	library=$(find "$folder/$platform/library" -name '*ricciflow.so' -o -name '*ricciflow.dylib' -o -name '*ricciflow.dll')
 	compiled_in "$platform"
-	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" "$build/release" \
+	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" "$build/release/wheels" \
 		"$expression" "${licences[@]}"
 }
 
@@ -123,7 +123,7 @@ for platform in "${chosen[@]}"; do
 	[ "$platform" = sdist ] || [ -n "${zig_target[$platform]:-}" ] ||
 		{ echo "There is no platform $platform: sdist ${platforms[*]}"; exit 2; }
 done
-mkdir -p "$folder" "$build/sources" "$build/release"
+mkdir -p "$folder" "$build/sources" "$build/release/wheels"
 for tool in cmake ninja python3; do
 	command -v $tool >/dev/null || need "$tool"
 done
@@ -137,7 +137,7 @@ gather
 status=0
 for platform in "${chosen[@]}"; do
 	if [ "$platform" = sdist ]; then
-		(cd "$tree/filter_ricci/python" && python3 -B -c 'import sys, build_backend as b; print(b.build_sdist(sys.argv[1]))' "$build/release")
+		(cd "$tree/filter_ricci/python" && python3 -B -c 'import sys, build_backend as b; print(b.build_sdist(sys.argv[1]))' "$build/release/wheels")
 		continue
 	fi
 	[ -n "${zig:-}" ] || get_zig
