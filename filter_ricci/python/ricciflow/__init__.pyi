@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
+"""UV-unwraps triangle meshes: conformal maps by the discrete Ricci flow."""
 # Made by document_filters.py.
 
 import os
@@ -8,7 +8,6 @@ from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 import numpy
 import numpy.typing
 import pymeshlab
-from pymeshlab import Mesh as Mesh
 
 Floats = numpy.typing.NDArray[numpy.float64]
 Integers = numpy.typing.NDArray[numpy.int32]
@@ -18,15 +17,19 @@ class HasVerticesAndFaces(Protocol):
     vertices: Any
     faces: Any
 
-MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, Mesh, HasVerticesAndFaces,
+MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, pymeshlab.Mesh,
+                 HasVerticesAndFaces,
                  tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]
 
 __version__: str
 EUCLIDEAN: str
 HYPERBOLIC: str
 
-class Refused(pymeshlab.PyMeshLabException):
+class Refused(Exception):
     """The mesh is refused; the text says why. It is unchanged."""
+
+class RicciWarning(UserWarning):
+    """A doubt about a map that was made: what it is, and what to do."""
 
 class Layer(NamedTuple):
     """A new layer: vertices (V, 3) float64, and what joins them."""
@@ -36,8 +39,7 @@ class Layer(NamedTuple):
     edges: Integers
 
 class Parametrization:
-    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
-    textures."""
+    """A mesh and its texture coordinates. It can be pickled and copied."""
 
     vertices: Floats
     """(V, 3) float64"""
@@ -56,14 +58,21 @@ class Parametrization:
         """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
     @property
     def mesh_set(self) -> pymeshlab.MeshSet:
-        """holds the mesh, and the new layers if some were asked for"""
+        """PyMeshLab's MeshSet that holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
+    messages: list[str]
+    """doubts about the map; each is a RicciWarning, too"""
+    log: list[str]
+    """all lines that the run has written"""
     def indexed(self) -> tuple[Floats, numpy.typing.NDArray[numpy.intp]]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
-        trimesh GLB and glTF."""
+        """Writes the mesh with its texture coordinates, and with the texture that carry_texture
+        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
+        too."""
+    def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes one of the layers to a PLY file."""
 
 class Flattening(Parametrization):
     converged: bool
@@ -407,130 +416,16 @@ class Uniformization(Parametrization):
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
-class MeshSet(pymeshlab.MeshSet):
-    def compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(
-        self,
-        *,
-        target_curvature: Union[int, Literal[
-            'Automatic',
-            'Flat everywhere',
-            'Disk',
-            'Rectangle',
-            'Cones at selected vertices',
-            'From vertex quality',
-            'Placed cones',
-        ]] = 'Automatic',
-        free_boundary: bool = True,
-        cone_distortion: float = 0.0,
-        seams: Union[int, Literal[
-            'Shortest',
-            'Existing texture seams',
-            'Selected edges',
-            'Border of selected faces',
-        ]] = 'Shortest',
-        output_triangulation: Union[int, Literal[
-            'Keep the mesh',
-            'Common refinement',
-        ]] = 'Keep the mesh',
-        chart_margin: float = 0.0,
-        colorize: bool = False,
-        flat_layer: bool = False,
-        holes: Union[int, Literal[
-            'Boundaries',
-            'Capped',
-            'Short ones capped',
-        ]] = 'Short ones capped',
-        seam_hiding: float = 0.0,
-        cone_count: int = 0,
-        cone_rounding: Union[int, Literal[
-            'Free',
-            'Multiples of pi/2',
-        ]] = 'Free',
-        method: Union[int, Literal[
-            'Intrinsic flips',
-            'Fixed triangles',
-            'Edge swaps',
-            'Thurston',
-        ]] = 'Intrinsic flips',
-        finish: Union[int, Literal[
-            'None',
-            'Repair',
-            'Least distortion',
-            'Least stretch',
-        ]] = 'Least distortion',
-        charts: Union[int, Literal[
-            'As the flow has them',
-            'Without overlap',
-            'Without overlap, cut for room',
-            'As they are, only packed',
-        ]] = 'Without overlap, cut for room',
- 'As they are, only packed',
-        normalize_uv: bool = True,
-        sphere_layer: bool = False,
-        join_vertices: Union[int, Literal[
-            'Automatic',
-            'Never',
-            'Always',
-        ]] = 'Automatic',
-        carry_texture: str = '',
-        texture_size: int = 2048,
-        report: str = '',
-        epsilon: float = 1e-08,
-        time_limit: float = 0.0,
-    ) -> dict[str, Any]:
-        """MeshLab's filter 'Generalized Ricci Flow (Euclidean)' on the current mesh."""
-    def compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge(
-        self,
-        *,
-        target_curvature: Union[int, Literal[
-            'Hyperbolic metric',
-            'Cones at selected vertices',
-            'From vertex quality',
-        ]] = 'Hyperbolic metric',
-        cone_angle: float = 180.0,
-        output_triangulation: Union[int, Literal[
-            'Keep the mesh',
-            'Common refinement',
-        ]] = 'Keep the mesh',
-        colorize: bool = False,
-        flat_layer: bool = False,
-        universal_cover: int = 0,
-        generator_axes: bool = False,
-        canonical_polygon: bool = False,
-        seams: Union[int, Literal[
-            'Shortest',
-            'Existing texture seams',
-            'Selected edges',
-            'Border of selected faces',
-        ]] = 'Shortest',
-        free_boundary: bool = False,
-        method: Union[int, Literal[
-            'Intrinsic flips',
-            'Fixed triangles',
-        ]] = 'Intrinsic flips',
-        finish: Union[int, Literal[
-            'None',
-            'Repair',
-        ]] = 'Repair',
-        join_vertices: Union[int, Literal[
-            'Automatic',
-            'Never',
-            'Always',
-        ]] = 'Automatic',
-        carry_texture: str = '',
-        texture_size: int = 2048,
-        report: str = '',
-        epsilon: float = 1e-08,
-        time_limit: float = 0.0,
-    ) -> dict[str, Any]:
-        """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
-
 def flatten(
     mesh: Union[MeshLike, numpy.typing.ArrayLike],
     faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
     selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    uv: Union[numpy.typing.ArrayLike, None] = None,
+    selected_edges: Union[numpy.typing.ArrayLike, None] = None,
+    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
+    diagonals: Union[numpy.typing.ArrayLike, None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Automatic',
@@ -599,7 +494,7 @@ def flatten(
     epsilon: float = 1e-08,
     time_limit: float = 0.0,
 ) -> Flattening:
-    """Conformal map of a mesh into the Euclidean plane.
+    """UV-unwraps a mesh: a conformal map into the plane.
 
     target_curvature: What the flow is asked to reach. Automatic suits most meshes: it places
         cones where areas would change much.
@@ -660,6 +555,10 @@ def uniformize(
     *,
     selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    uv: Union[numpy.typing.ArrayLike, None] = None,
+    selected_edges: Union[numpy.typing.ArrayLike, None] = None,
+    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
+    diagonals: Union[numpy.typing.ArrayLike, None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Hyperbolic metric',
