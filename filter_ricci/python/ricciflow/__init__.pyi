@@ -106,7 +106,8 @@ class Flattening(Parametrization):
     """standard deviation of ln s, weighted likewise"""
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios"""
+    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
+    texture (1/16384 of √area), unless they cover as much as a row of texels"""
     objective: float
     """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
     √area"""
@@ -268,7 +269,8 @@ class Uniformization(Parametrization):
     """standard deviation of ln s, weighted likewise"""
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios"""
+    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
+    texture (1/16384 of √area), unless they cover as much as a row of texels"""
     objective: float
     """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
     √area"""
@@ -480,7 +482,6 @@ def flatten(
         'Without overlap, cut for room',
         'As they are, only packed',
     ]] = 'Without overlap, cut for room',
- 'As they are, only packed',
     normalize_uv: bool = True,
     sphere_layer: bool = False,
     join_vertices: Union[int, Literal[
