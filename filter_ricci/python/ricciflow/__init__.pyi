@@ -497,56 +497,49 @@ def flatten(
 ) -> Flattening:
     """UV-unwraps a mesh: a conformal map into the plane.
 
-    target_curvature: What the flow is asked to reach. Automatic suits most meshes: it places
-        cones where areas would change much.
-    free_boundary: The boundary keeps its lengths, but for what the finish changes. Not read for
-        Disk, Rectangle and the flat annulus.
-    cone_distortion: 0: the cones that are worth their seams. Above 0: so many that areas change
-        by less than this (0.25: by a quarter).
-    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
-        Crease Edges'), or round selected faces.
-    output_triangulation: Common refinement: faces are divided where the flow's edges cross
-        them, so that the map is exact on every piece.
-    chart_margin: Room round each chart, as a share of the side of the square, for baking.
-        0.004: 4 pixels of 1024, 8 of 2048.
-    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
-        (the 99th percentile over the faces, and more).
+    target_curvature: Shape of the UV layout: its outline, and its cones, the points where it is
+        not flat. Automatic suits most meshes.
+    free_boundary: Let the outline of an open mesh take its natural shape. Ignored by Disk,
+        Rectangle and flat annuli.
+    cone_distortion: Largest area distortion that cones may leave (0.25: 25 %). 0: area
+        distortion and seam length are balanced.
+    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
+        edges or the outline of the selected faces.
+    output_triangulation: Common refinement adds vertices where edges of the solver cross those
+        of the mesh, so that the map is exact on every piece.
+    chart_margin: Padding between two charts (UV islands) and to the border, as a fraction of
+        the texture size. 0.004: 4 pixels at 1024.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
-    holes: Boundary loops other than the longest: boundaries too, or Capped for the flow, so
-        that the chart goes round them without seams. Short ones capped: those within a tenth of
-        the root of the area, even if all are.
-    seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
-        ten times its length, so that seams run through hollows.
-    cone_count: The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
-    cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
-        need them; all seams then differ by quarter turns.
-    method: If a triangle breaks, intrinsic flips or the paper's edge swaps give the flow
-        others, and fixed triangles end with an error; the mesh is never changed. Thurston: the
-        conventional flow on the mesh's triangles, to compare with.
-    finish: Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the
-        least mean conformal distortion, or the least stretch, of lengths too: best on chosen
-        seams, whose sides then differ. Only for the method 'Intrinsic flips'.
-    charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
-        shortest lines. Cut for room: with Automatic, also a chart that fills little of the
-        square, where the room is worth the seam. As they are: those of the texture coordinates
-        that the mesh has keep their shape, and are only turned, scaled by one factor and
-        packed.
-    normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
-        scale of the metric.
-    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
+    holes: Fill holes while solving, so that no seam runs to them: all boundary loops but the
+        longest, or only short ones (0.1 √area).
+    seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
+        ten times longer).
+    cone_count: The number of placed cones. 0: 'Cones: area distortion' decides.
+    cone_rounding: Free: the least area distortion. Multiples of pi/2: a seamless map for quad
+        remeshing, whose seams differ by quarter turns.
+    method: What happens when a triangle degenerates during the solve: the solver flips edges
+        (recommended) or swaps them, or the run fails. Thurston: the conventional flow.
+    finish: After the solve, repair flipped faces; then minimise angle distortion, or stretch,
+        where the two sides of a seam may differ. Needs 'Intrinsic flips'.
+    charts: Leave charts whole, split those that overlap, or with Automatic also for better
+        packing. Only packed: the old islands keep their shape.
+    normalize_uv: Scale the UVs uniformly into [0,1] x [0,1]. Off: they keep the real size of
+        the mesh.
+    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Needs one
         closed surface of genus 0.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
-    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
-        colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
-    report: A report of the run: a page with diagrams and its data beside it (.html), or the
-        data alone (.csv). Empty: no report.
-    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
-        radians, or at the floor that rounding sets.
-    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
+        them. Automatic: only if faces share almost no vertices.
+    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
+        new UVs. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
+        the old textures is kept.
+    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
+        Empty: no report.
+    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
+        radians, or rounding allows no better.
+    time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """
 
@@ -604,39 +597,38 @@ def uniformize(
 ) -> Uniformization:
     """Hyperbolic metric of a mesh, in the Poincaré disk.
 
-    target_curvature: The curvature at the vertices, beyond the constant -1 of the triangles.
-        Hyperbolic metric: none, for surfaces of negative Euler characteristic.
+    target_curvature: The curvature at the vertices, in addition to the constant -1 of the
+        triangles. Hyperbolic metric: none, for surfaces of negative Euler characteristic.
     cone_angle: The sum of the angles at each selected vertex, for 'Cones at selected vertices'.
-        360 is no cone.
-    output_triangulation: Common refinement: faces are divided where the flow's edges cross
-        them, so that the map is exact on every piece.
-    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
-        (the 99th percentile over the faces, and more).
+        360: not a cone.
+    output_triangulation: Common refinement adds vertices where edges of the solver cross those
+        of the mesh, so that the map is exact on every piece.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
     flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
     universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
-        copies round it, which tile the disk. 0: no layer.
+        copies around it, which tile the disk. 0: no layer.
     generator_axes: Add a layer with the axes of the canonical generators of the Fuchsian group,
         as edges. On the surface they are closed geodesics.
     canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
-        edges. Its sides are geodesics that the canonical generators pair.
-    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
-        Crease Edges'), or round selected faces.
-    free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
-        inside only. Off: the target holds on the boundary too.
-    method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
-        with an error; the mesh is never changed.
-    finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
-    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
-        colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
-    report: A report of the run: a page with diagrams and its data beside it (.html), or the
-        data alone (.csv). Empty: no report.
-    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
-        radians, or at the floor that rounding sets.
-    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+        edges. The canonical generators pair its sides, which are geodesics.
+    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
+        edges or the outline of the selected faces.
+    free_boundary: The circles at boundary vertices keep their radii, and the target holds at
+        interior vertices only. Off: the target holds everywhere.
+    method: What happens when a triangle degenerates during the solve: edges flip inside the
+        solver (recommended), or the run fails.
+    finish: After the solve, repair flipped faces. Needs the method 'Intrinsic flips'.
+    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
+        them. Automatic: only if faces share almost no vertices.
+    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
+        new UVs. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
+        the old textures is kept.
+    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
+        Empty: no report.
+    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
+        radians, or rounding allows no better.
+    time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """
