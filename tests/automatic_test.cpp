@@ -113,7 +113,7 @@ TEST(KeptAreas, AreThoseOfTheBestFlow)
 				const int count = listener.count(kRound);
 				EXPECT_LE(count, 6);
 				EXPECT_EQ(report.endedEarly, count == 6);
-				EXPECT_EQ(listener.count("has ended at the bound on its flows"), count == 6);
+				EXPECT_EQ(listener.count("stopped at its limit of solves"), count == 6);
 				rounds += count;
 				ended += count == 6;
 				const std::vector<FlowState>& states = report.flowStates;
@@ -357,7 +357,7 @@ TEST(Unfolded, WhereThereIsMemory)
 		const FlatResult map = within(0.0, log);
 		EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
 		EXPECT_EQ(within(2.2 * needed, log).uv, map.uv);
-		const char* const words = "There is not enough memory to unfold";
+		const char* const words = "There is not enough memory to also unfold";
 		EXPECT_EQ(log.count(words), 0);
 		EXPECT_NE(within(1.1 * needed, log).report.targetUsed, TargetUsed::Unfolded);
 		EXPECT_GT(log.count(words), 0);

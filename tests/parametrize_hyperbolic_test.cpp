@@ -286,7 +286,7 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 	for (const int genus : {14, 16}) {
 		Listener listener;
 		const FlatResult map = heard(listener, [&] { return run(perforatedSlab(genus, 2)); });
-		EXPECT_GT(listener.count("around the middle"), 0);
+		EXPECT_GT(listener.count("around the centre"), 0);
 		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);
 		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);

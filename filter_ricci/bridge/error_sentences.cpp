@@ -118,8 +118,8 @@ std::string inWords(const ricci::InvalidOption& e)
 		return "{chart_margin} " + numberText(e.value, 6, std::chars_format::fixed) +
 			   " leaves no room for " + count + " charts: choose a smaller one.";
 	case Error::WithoutFlips:
-		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
-			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
+		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
+			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";
 	case Error::WithoutPositions:
 		return reported(e);
 	case Error::HyperbolicMethod:
@@ -155,7 +155,7 @@ std::string inWords(const ricci::InvalidOption& e)
 		return std::string(e.what()) + ".";
 	case Error::NoMap:
 		return count + (e.count == 1 ? " face has" : " faces have") +
-			   " no texture coordinates: only a map of all faces can be packed as it is.";
+			   " no texture coordinates: only a map of all faces can be packed unchanged.";
 	case Error::CoverTooLarge:
 		return "{universal_cover}: " + numberText(e.value, 10) + " rings would need more than " +
 			   count + " faces. Ask for fewer rings, or simplify the mesh.";

@@ -273,12 +273,12 @@ class Batch(unittest.TestCase):
         self.assertEqual(run(path, out, "--quiet"), ("", ""))
         printed, errors = run(path, out, "--verbose", "--target-curvature", "Disk")
         self.assertRegex(printed, said + "(?s:.*)charts = 1\n")
-        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        self.assertRegex(errors, "^hill.ply: This map is probably not usable: .*\n$")
         _, errors = run(self.meshes, self.out, "--target-curvature", "Disk")
-        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        self.assertRegex(errors, "^hill.ply: This map is probably not usable: .*\n$")
         with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
             row, = csv.DictReader(source)
-        self.assertIn("doubtful", row["messages"])
+        self.assertIn("not usable", row["messages"])
 
     @unittest.skipIf(pymeshlab is None, "PyMeshLab, which reads most of them, is not installed")
     def test_every_format_and_what_is_skipped(self):

@@ -495,7 +495,7 @@ class Functions(unittest.TestCase):
     def test_doubts_are_heard(self):
         """As warnings, and with the result."""
         mesh = arrays(meshes.swirled(meshes.double_torus(), 4.0, 1.5))
-        with self.assertWarnsRegex(ricciflow.RicciWarning, "use of this map is doubtful") as caught:
+        with self.assertWarnsRegex(ricciflow.RicciWarning, "This map is probably not usable") as caught:
             result = flatten(*mesh, target_curvature="Placed cones", cone_count=1,
                              charts="As the flow has them")
         self.assertEqual(os.path.basename(caught.filename), "test_wheel.py")

@@ -385,8 +385,8 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	if (isEnded) {
 		++map.report.endedEarly;
 		logLine(
-			"Cuts for room have ended at " + std::to_string(kMaxCuts) +
-			": more of them could still cover a little more of the square.");
+			"Cuts for packing stopped at " + std::to_string(kMaxCuts) +
+			": more cuts could still fill slightly more of the square.");
 	}
 }
 
