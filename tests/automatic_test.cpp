@@ -87,7 +87,7 @@ TEST(KeptAreas, OfGentleSurfacesNeedNoCones)
 	options.cones.distortion = 1.0;
 	for (const SurfaceMesh& mesh : {terrain, torus(3.0, 1.0, 30, 30), ring(1.0, 3.0, 40, 20)}) {
 		Listener listener;
-		const Report report = heard(listener, [&] { return run(mesh, options).report; });
+		const Report report = withListener(listener, [&] { return run(mesh, options).report; });
 		EXPECT_EQ(report.cones, 0);
 		EXPECT_LT(report.areaDistortionSpread, 1.0);
 		EXPECT_EQ(listener.count("No cones: expected energy"), 1);
@@ -109,7 +109,8 @@ TEST(KeptAreas, AreThoseOfTheBestFlow)
 				Options options = keeping(wanted);
 				options.cones.rounding = rounding;
 				Listener listener;
-				const Report report = heard(listener, [&] { return run(mesh, options).report; });
+				const Report report =
+					withListener(listener, [&] { return run(mesh, options).report; });
 				const int count = listener.count(kRound);
 				EXPECT_LE(count, 6);
 				EXPECT_EQ(report.endedEarly, count == 6);
@@ -160,7 +161,7 @@ TEST(KeptAreas, AreNoConcernOfCountedCones)
 	options.cones.count = 3;
 	Listener listener;
 	const Report report =
-		heard(listener, [&] { return run(hardSurfaces()[4].second, options).report; });
+		withListener(listener, [&] { return run(hardSurfaces()[4].second, options).report; });
 	EXPECT_EQ(report.cones, 3);
 	EXPECT_GT(report.areaDistortionSpread, 1.0);
 	EXPECT_EQ(listener.count(kRound), 0);

@@ -385,7 +385,7 @@ TEST_P(Logs, SayWhatWasDone)
 {
 	const Log& log = GetParam();
 	Listener listener;
-	const Parametrization map = heard(listener, [&] { return outcomeOf(log).map; });
+	const Parametrization map = withListener(listener, [&] { return outcomeOf(log).map; });
 	std::vector<std::string> expected;
 	for (const std::vector<std::string>& group : log.expected(Lines(log.mesh, map), map))
 		expected.insert(expected.end(), group.begin(), group.end());
@@ -422,7 +422,7 @@ TEST(Logs, SayWhatWasDoneToTheMesh)
 	const auto notesOf = [](const SurfaceMesh& surface) {
 		Listener listener;
 		const Parametrization map =
-			heard(listener, [&] { return parametrizeEuclidean(surface, {}, {}); });
+			withListener(listener, [&] { return parametrizeEuclidean(surface, {}, {}); });
 		EXPECT_TRUE(std::equal(map.notes.begin(), map.notes.begin() + 9, listener.lines.begin()));
 		const Report& r = map.report;
 		const auto expectCount = [&](std::size_t i, int count) {
@@ -479,8 +479,8 @@ TEST(Logs, AreOfTheLargestComponents)
 	const std::size_t small = notesOf(rectangle(1, 1, 1, 1)).size();
 	ASSERT_GT(small, 0u);
 	Listener listener;
-	const Parametrization map =
-		heard(listener, [&] { return parametrizeEuclidean(sideBySide(mesh, large, 100), {}, {}); });
+	const Parametrization map = withListener(
+		listener, [&] { return parametrizeEuclidean(sideBySide(mesh, large, 100), {}, {}); });
 	const std::vector<std::string> alone = notesOf(large);
 	ASSERT_EQ(map.notes.size(), 19 * small + alone.size());
 	EXPECT_EQ(map.notes[19 * small], alone.front());

@@ -285,7 +285,8 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 {
 	for (const int genus : {14, 16}) {
 		Listener listener;
-		const FlatResult map = heard(listener, [&] { return run(perforatedSlab(genus, 2)); });
+		const FlatResult map =
+			withListener(listener, [&] { return run(perforatedSlab(genus, 2)); });
 		EXPECT_GT(listener.count("around the centre"), 0);
 		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);

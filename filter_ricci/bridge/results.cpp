@@ -259,7 +259,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 		lines.push_back(
 			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
-			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForRoom))
+			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForPacking))
 				 ? "Chosen seams ({seams}) divide it into charts that pack better."
 				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' divides "
 				   "it into charts that pack better."));

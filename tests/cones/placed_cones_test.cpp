@@ -202,7 +202,7 @@ struct Said
 	Said(const SurfaceMesh& mesh, const Options& options)
 	{
 		Listener listener(1, "Solving for the metric");
-		EXPECT_THROW(heard(listener, [&] { flattened(mesh, options); }), Cancelled);
+		EXPECT_THROW(withListener(listener, [&] { flattened(mesh, options); }), Cancelled);
 		for (const std::string& line : listener.lines) {
 			if (line.find(" cones placed: ") == std::string::npos)
 				continue;

@@ -531,7 +531,7 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
 	if (bytes.oneIn(8))
-		options.charts = Charts::CutForRoom;
+		options.charts = Charts::CutForPacking;
 	if (bytes.oneIn(8)) {
 		seamEvery = 1 + bytes.below(50);
 		seamSeed = bytes.byte();

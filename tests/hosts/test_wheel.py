@@ -247,12 +247,12 @@ def roads():
 
 class Progress(unittest.TestCase):
     def test_told(self):
-        heard = []
-        flatten(*arrays(meshes.torus()), progress=lambda *told: heard.append(told))
-        self.assertEqual(heard[-1], (1.0, "Done"))
-        for fraction, what in heard:
+        updates = []
+        flatten(*arrays(meshes.torus()), progress=lambda *told: updates.append(told))
+        self.assertEqual(updates[-1], (1.0, "Done"))
+        for fraction, what in updates:
             self.assertTrue(0.0 <= fraction <= 1.0 and what, (fraction, what))
-        self.assertEqual([f for f, _ in heard], sorted(f for f, _ in heard))
+        self.assertEqual([f for f, _ in updates], sorted(f for f, _ in updates))
 
     def test_bar(self):
         """On standard error: tqdm's, or a line without it."""
@@ -492,7 +492,7 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 flatten(vertices, faces, **wrong)
 
-    def test_doubts_are_heard(self):
+    def test_doubts_are_warnings(self):
         """As warnings, and with the result."""
         mesh = arrays(meshes.swirled(meshes.double_torus(), 4.0, 1.5))
         with self.assertWarnsRegex(ricciflow.RicciWarning, "This map is probably not usable") as caught:

@@ -126,7 +126,7 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"flow", Charts::OfTheFlow},
 				 {"separate", Charts::WithoutOverlap},
-				 {"strips", Charts::CutForRoom}});
+				 {"strips", Charts::CutForPacking}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")
@@ -220,7 +220,7 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	Outcome out;
 	const std::clock_t start = std::clock();
 	const WholeMap whole =
-		testing::heard(progress, [&] { return chartsInPlane(mesh, {}, options); });
+		testing::withListener(progress, [&] { return chartsInPlane(mesh, {}, options); });
 	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
@@ -242,7 +242,8 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	params.chartMargin = a.margin;
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Flow::Result flat = testing::heard(progress, [&] { return Flow::Compute(m, params); });
+	const Flow::Result flat =
+		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;

@@ -62,8 +62,8 @@ enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
 	///< that do not; the others stay as they are, and so do disks and rectangles
-	CutForRoom, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
-	///< the seam, see packForRoom(), unless the mesh has a map. A cut counts as one of an overlap
+	CutForPacking, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
+	///< the seam, see packWithCuts(), unless the mesh has a map. A cut counts as one of an overlap
 	AsGiven ///< there is no flow: those of the map that the mesh has (SurfaceMesh::map) keep their shapes, and are
 			///< only turned and packed, all scaled by one factor
 };
@@ -202,7 +202,7 @@ struct Options : FlowOptions, TargetOptions, PackOptions
 	/// target gives values for the surface's own boundary: Flat and Prescribed.
 	Holes holes = Holes::ShortCapped;
 
-	Charts charts = Charts::CutForRoom;
+	Charts charts = Charts::CutForPacking;
 };
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.

@@ -214,9 +214,9 @@ void pack(const Options& options, WholeMap& whole)
 	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	if (options.charts == Charts::CutForRoom && whole.opened.mesh.map.empty() &&
+	if (options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
 		options.normalizeUV && options.target == TargetCurvature::Automatic)
-		packForRoom(map, options, turns);
+		packWithCuts(map, options, turns);
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");

@@ -281,7 +281,7 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
-std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurface)
+std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onSurface)
 {
 	struct Wide
 	{
@@ -321,7 +321,7 @@ std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurf
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
 		if (cut &&
-			most >= kRoomPrice *
+			most >= kPackingPrice *
 						std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength))) {
 			cut->chart = static_cast<int>(wide.chart);
 			return cut;
