@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that is heard and ended: at every call of its listener it leaves at once, by the listener's word or by
+// A run that reports to a listener and is ended: at every call of its listener it leaves at once, by the listener's word or by
 // the clock's, and the mesh is bit for bit what it was. What a listener itself throws passes through.
 #include "support/calls.h"
 #include "support/expect.h"
@@ -25,7 +25,7 @@
 namespace ricci::testing {
 namespace {
 
-/// Hears all, and does something at one of the calls.
+/// Receives all calls, and does something at one of them.
 class Caller : public Progress
 {
 public:

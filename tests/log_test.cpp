@@ -235,7 +235,7 @@ std::vector<Log> logs()
 				  "Cones: " + isSphere + ".",
 				  l.cones()},
 				 l.newton(),
-				 // Before it is cut for room.
+				 // Before it is cut for packing.
 				 {"Automatic: cones, because " + isSphere +
 				  "; as a whole: energy 4, seams # (objective #); cut along creases and unfolded: "
 				  "energy 4, seams # (objective #)."}};

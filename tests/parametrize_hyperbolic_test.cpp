@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way from a mesh to the Poincaré disk.
+// Complete runs from a mesh to the Poincaré disk.
 #include "support/complex.h"
 #include "support/flat_map.h"
 #include "support/implicit_surface.h"
@@ -77,7 +77,7 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 {
 	const SurfaceMesh mesh = genusTwo();
 	const FlatResult kept = run(mesh), exact = run(mesh, refined());
-	// One figure but for a motion of the disk: seen from one corner in the direction of the next.
+	// One figure except for a motion of the disk: seen from one corner in the direction of the next.
 	const auto seen = [](const FlatResult& map, const Point2& p) {
 		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
 		return seenFrom(map.uv[0][0], p) * std::abs(towards) / towards;

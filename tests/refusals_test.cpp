@@ -392,7 +392,7 @@ std::vector<Refusal> curvatures()
 		o.freeBoundary = true;
 	});
 	using E = InadmissibleCurvature;
-	/// Prescribes 0 but for some vertices.
+	/// Prescribes 0 except for some vertices.
 	const auto add = [&](const char* name,
 						 const SurfaceMesh& mesh,
 						 const auto& options,

@@ -385,8 +385,8 @@ void writeMesh(
 		removeColours(model);
 }
 
-/// The flow with room for the gutter of a texture between its charts.
-/// \throw Refusal if there is none for so many charts
+/// The flow with padding for a texture between its charts.
+/// \throw Refusal if so many charts do not fit
 Flow::Result
 computeFor(const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Openings& seams)
 {

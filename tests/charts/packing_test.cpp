@@ -20,7 +20,7 @@
 namespace ricci::testing {
 namespace {
 
-/// A cut for room brings this power of what its seam costs at least.
+/// A cut for packing brings this power of what its seam costs at least.
 constexpr double kPackingPrice = 2.3;
 
 /// Pieces over the plane as one mesh, one above the other.

@@ -79,7 +79,7 @@ TEST(PlacedCones, AreAdmissibleOnClosedSurfacesOfEveryGenus)
 			}
 }
 
-/// A box is flat but for its eight corners of pi / 2: no area has to change. More cones, or none but for a
+/// A box is flat except for its eight corners of pi / 2: no area has to change. More cones, or none except for a
 /// distortion, would carry nothing.
 TEST(PlacedCones, AreTheCornersOfABox)
 {

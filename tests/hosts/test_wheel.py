@@ -520,9 +520,9 @@ class Functions(unittest.TestCase):
 
             self.assertRegex(run("one_mesh.py", path["in.ply"], path["one.ply"]), r"^\d+ charts")
             self.assertRegex(run("chosen_seams.py", path["one.ply"], path["two.obj"]),
-                             r"^\d\d+ edges as chosen, 0 more, \d+ charts")
+                             r"^\d\d+ chosen edges, 0 more, \d+ charts")
             self.assertRegex(run("chosen_seams.py", path["in.ply"], path["two.obj"], "60"),
-                             "edges as chosen, 0 more, 14 charts")
+                             "chosen edges, 0 more, 14 charts")
             with open(path["two.obj"], encoding="utf-8") as source:
                 self.assertGreater(sum(line.startswith("vt ") for line in source),
                                    len(meshes.double_torus().vertices))
@@ -677,7 +677,7 @@ class Functions(unittest.TestCase):
             scene.export(os.path.join(folder, "two.glb"))
             for given in (scene, os.path.join(folder, "two.glb")):
                 self.assertEqual(len(flatten(given).faces), 2 * len(faces))
-            # A texture that is drawn anew goes with the mesh, else the old one with its coordinates.
+            # A transferred texture goes with the mesh, else the old one with its coordinates.
             white = trimesh.visual.material.SimpleMaterial(image=PIL.Image.new("RGB", (8, 8), "white"))
             points = result.vertices[:, :2]
             trimesh.Trimesh(result.vertices, result.faces, process=False,
@@ -744,8 +744,8 @@ class Functions(unittest.TestCase):
                 flatten(bad)
         for error, pattern, slip in (
                 (TypeError, "'cone_distorsion': did you mean 'cone_distortion'", {"cone_distorsion": 1}),
-                (ValueError, "'Disc' is no choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
-                (ValueError, "'Torus' is no choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
+                (ValueError, "'Disc' is not a choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
+                (ValueError, "'Torus' is not a choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
                 (ValueError, "^target_curvature: 99", {"target_curvature": 99}),
                 (TypeError, "^cone_distortion must be of type float", {"cone_distortion": "a"}),
                 (TypeError, "^flat_layer must be of type bool", {"flat_layer": "yes"}),

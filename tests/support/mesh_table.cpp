@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
-// tabulators between the columns; the last column is the refusal, if there is one.
+// tabs between the columns; the last column is the refusal, if there is one.
 #include "flat_map.h"
 #include "listener.h"
 #include "mesh_file.h"
@@ -36,7 +36,7 @@ const char* const kUsage =
 	"  --refine             give the map on the common refinement (method flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
-	"  --packed             the whole way to the unit square; count there what lies on each other\n"
+	"  --packed             go on to the unit square; count overlaps there\n"
 	"  --margin M           between the charts, with --packed\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"

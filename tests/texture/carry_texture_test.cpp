@@ -11,7 +11,7 @@
 namespace ricci::testing {
 namespace {
 
-/// A chart in the unit square, curved and turned, with room round it.
+/// A chart in the unit square, curved and turned, with space around it.
 Point2 curved(const Point2& p)
 {
 	const double x = p[0] + 0.15 * p[1] * p[1], y = p[1] - 0.1 * p[0] * p[0];

@@ -140,7 +140,7 @@ struct DistortionReport
 struct ChartReport
 {
 	int charts = 0;
-	int seamEdges = 0;       ///< edges of the input along which the layout is cut, but for those
+	int seamEdges = 0;       ///< edges of the input along which the layout is cut, except for those
 							 ///< that SurfaceMesh::seam asks for
 	double seamLength = 0.0; ///< of these edges and of overlapCuts on the mesh, each once
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area

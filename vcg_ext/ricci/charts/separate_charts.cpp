@@ -112,7 +112,7 @@ bool reflectFlipped(FlatMesh& chart)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
+/// The least cut across a chart's smallest bounding rectangle, except for \p from at either end, or across so much
 /// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
 /// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
 /// chart goes to the other part.

@@ -22,12 +22,12 @@ struct PartPlacing
 };
 
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
-/// parts of divideChart(), joined again by joinParts() across seams where they have room, each from the
+/// parts of divideChart(), joined again by joinParts() across seams where they fit, each from the
 /// origin. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
 /// length.
 void separateCharts(const PartPlacing& placing, Parametrization& map);
 
-/// Joins charts across seams where they have room (joinParts()): those whose sides are as long in the
+/// Joins charts across seams where they fit (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report
 /// counts the charts, not what the seams have shrunk by.
 /// \pre no chart overlaps itself
@@ -40,7 +40,7 @@ constexpr double kPackingPrice = 2.3;
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Shares of a chart's length, at either end, that a cut for room leaves whole. The second is tried where the first
+/// Shares of a chart's length, at either end, that a cut for packing leaves whole. The second is tried where the first
 /// finds crumbs alone.
 constexpr double kCutFrom[] = {0.1, 0.4};
 

@@ -405,7 +405,7 @@ _FLAT = 1e-12
 
 
 def _clip_ears(points):
-    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear goes first."""
+    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear is cut first."""
     xy = points.tolist()
     n = len(xy)
     before, after = [(i - 1) % n for i in range(n)], [(i + 1) % n for i in range(n)]
@@ -555,7 +555,7 @@ def numbers(text, dtype=np.float64):
         warnings.simplefilter('ignore', DeprecationWarning)
         try:
             return np.fromstring(text, dtype, sep=' ') if text and not text.isspace() else np.zeros(0, dtype)
-        except ValueError:  # from numpy 3 on, words that are no numbers
+        except ValueError:  # from numpy 3 on, words that are not numbers
             return np.zeros(0, dtype)
 
 
