@@ -162,7 +162,7 @@ struct Report : SurfaceReport, FlowReport, InvariantReport, DistortionReport, Ch
 	/// price of all seams, MapCost::total().
 	std::optional<double> stretch, objective;
 
-	/// Points of the map that the repair moved, see Finish; one that was moved again in the coordinates stored counts
+	/// Points of the map that the repair moved, see Finish; one that is moved again after rounding to float counts
 	/// twice.
 	int finishMoved = 0;
 	/// Points of the common refinement that are not vertices of the input; 0 where the result keeps the mesh.
