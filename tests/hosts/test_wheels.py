@@ -35,15 +35,19 @@ NATIVE = os.path.join(common.BUILD, "library")
 IMPORTS = {
     "many": r"lib(c|m|dl|pthread|rt)\.so\.\d|ld-linux-.*\.so\.\d", "musl": r"libc\.so",
     "win": r"api-ms-win-crt-.*\.dll|KERNEL32\.dll", "maco": r"/usr/lib/libSystem\.B\.dylib"}
+# Of one sliver, or what the last step of the flow leaves: as near as rounding puts them.
+OF_ONE_PLACE = ("log_radius", "quality", "target_curvature", "results.cone_curvatures", "results.qc_max")
 SCRIPT = """
-import json, sys, time
+import json, os, sys, time
 start = time.perf_counter()
 import numpy
 between = time.perf_counter()
 import ricciflow
 end = time.perf_counter()
-with open("/proc/self/status") as status:
-    resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+resident = 0
+if os.path.exists("/proc/self/status"):  # not where only the root is another
+    with open("/proc/self/status") as status:
+        resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
 maps = []
 for path in sys.argv[1:]:
     numbers = numpy.array(open(path).read().split(), float)
@@ -214,7 +218,7 @@ class Maps(unittest.TestCase):
         cls.expected = {name: parsed(run([program, path])) for name, path in cls.paths.items()}
 
     def compare(self, where, maps):
-        worst = {"figures": 0.0, "log_radius": 0.0, "uv": 0.0}
+        worst = {"figures": 0.0, "single places": 0.0, "uv": 0.0}
         other_floats = corners = 0
         for name, found in maps.items():
             for key, values in self.expected[name].items():
@@ -226,17 +230,17 @@ class Maps(unittest.TestCase):
                     self.assertEqual(one.tolist(), two.tolist(), (where, name, key))
                     continue
                 off = numpy.abs(one - two) / numpy.maximum(1.0, numpy.abs(one))
-                kind = key if key in worst else "figures"
+                kind = "uv" if key == "uv" else "single places" if key in OF_ONE_PLACE else "figures"
                 worst[kind] = max(worst[kind], off.max())
                 if key == "uv":
                     other_floats += int((one != two).sum())
                     corners += len(one)
             self.assertIn("results.charts", found)
-        print(f"{where}: {len(maps)} meshes; largest differences: figures {worst['figures']:.1e}, logarithms of "
-              f"radii {worst['log_radius']:.1e}, uv {worst['uv']:.1e} ({other_floats} of {corners} floats)",
+        told = ", ".join(f"{kind} {value:.1e}" for kind, value in worst.items())
+        print(f"{where}: {len(maps)} meshes; largest differences: {told} ({other_floats} of {corners} floats)",
               flush=True)
         self.assertLess(worst["figures"], 1e-12, where)
-        self.assertLess(worst["log_radius"], 1e-10, where)
+        self.assertLess(worst["single places"], 1e-11, where)
         self.assertLess(worst["uv"], 2.0 ** -24 * 1.01, where)
         self.assertLess(other_floats, 1e-3 * corners, where)
 
@@ -318,14 +322,15 @@ class Maps(unittest.TestCase):
                   f"then {tries[-1][2] / 1024:.0f} MB in memory", flush=True)
             self.assertLess(size, 110e6)
             self.assertLess(both, 1.3 * alone)
+            self.assertLess(tries[-1][2], 30 * 1024)
             self.example(folder, [python])
 
-    def example(self, folder, python, **options):
+    def example(self, folder, python):
         """The README's first lines of Python, as they stand there."""
         with open(os.path.join(common.REPOSITORY, "README.md"), encoding="utf-8") as readme:
             code = re.search(r"```python\n(.*?)```", readme.read(), re.DOTALL).group(1)
         meshes.write_ply(os.path.join(folder, "mesh.ply"), uneven(meshes.torus()))
-        run([*python, "-c", code], **{"cwd": folder, **options})
+        run([*python, "-c", code], cwd=folder)
         self.assertTrue(os.path.exists(os.path.join(folder, "uv.obj")))
 
     def test_oldest_system(self):
@@ -334,22 +339,21 @@ class Maps(unittest.TestCase):
         if platform not in PLATFORMS:
             self.skipTest(f"no wheel for {platform} was asked for")
         root = self.needed("an older Debian (tests/deep.sh wheels, as root)", os.path.join(SYSTEMS, "oldest"))
-        inside = ["chroot", root, "env", "-i", "HOME=/root", "PATH=/usr/sbin:/usr/bin:/sbin:/bin"]
-        version = run([*inside, "python3", "-c", "import sys; print('%d.%d' % sys.version_info[:2])"]).strip()
-        libc = run([*inside, "getconf", "GNU_LIBC_VERSION"]).strip()
         folder = os.path.join(root, "wheels")
         shutil.rmtree(folder, ignore_errors=True)
         os.mkdir(folder)
         self.addCleanup(shutil.rmtree, folder)
+        inside = ["chroot", root, "env", "-i", "-C", "/wheels", "HOME=/root", "PATH=/usr/sbin:/usr/bin:/sbin:/bin"]
+        version = run([*inside, "python3", "-c", "import sys; print('%d.%d' % sys.version_info[:2])"]).strip()
+        libc = run([*inside, "getconf", "GNU_LIBC_VERSION"]).strip()
         self.fetch_numpy(folder, version, "manylinux2014_x86_64")
         shutil.copy(wheel(platform), folder)
         run([*inside, "python3", "-m", "venv", "/wheels/venv"])
         run([*inside, "/wheels/venv/bin/pip", "install", "-q", "--no-index", "--find-links", "/wheels",
              "ricciflow"])
         python = [*inside, "/wheels/venv/bin/python"]
-        _, _, resident = self.by_python(f"Python {version}, {libc}", python, folder)
-        print(f"{resident / 1024:.0f} MB in memory after the import", flush=True)
-        self.example(folder, [*inside, "-C", "/wheels", "/wheels/venv/bin/python"])
+        self.by_python(f"Python {version}, {libc}", python, folder)
+        self.example(folder, python)
 
     def fetch_numpy(self, folder, version, platform):
         try:
