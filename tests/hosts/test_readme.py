@@ -158,8 +158,7 @@ class Readme(unittest.TestCase):
         """One version everywhere."""
         version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
         for name, pattern in (
-                ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("README.md", r"version = {(.*?)}"),
-                ("CITATION.cff", r"^version: (.*)"),
+                ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("CITATION.cff", r"^version: (.*)"),
                 (os.path.join("vcg_ext", "ricci", "CMakeLists.txt"), r"^project\(ricci VERSION ([\d.]+)")):
             self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
         for name in ("README.md", os.path.join("filter_ricci", "README.md")):
