@@ -120,8 +120,9 @@ class Readme(unittest.TestCase):
     FACADE = "vcg_ext/vcg/complex/algorithms/parametrization"
 
     def test_files_and_functions(self):
-        """The page of the core names files that are there, and functions that they hold."""
-        for line in read("vcg_ext", "ricci", "README.md").splitlines():
+        """The pages of the core name files that are there, and functions that they hold."""
+        pages = read("vcg_ext", "ricci", "README.md") + read("vcg_ext", "ricci", "PAPER.md")
+        for line in pages.splitlines():
             for name, functions in re.findall(r"`([\w/]+\.(?:cpp|h|cmake))`((?: \(`.*?`\))?)", line):
                 places = [p for p in ("", "vcg_ext/ricci", "vcg_ext", self.FACADE)
                           if os.path.isfile(os.path.join(common.REPOSITORY, p, name))]
