@@ -66,8 +66,7 @@ def item(parameter, said):
         values = ""
     if words(parameter) in said:
         return f"- **`{name} : {kind}`**: as in the Euclidean filter."
-    return (f"- **`{name} : {kind}`**<br>{values}\n"
-            f"  *{parameter['label']}*: {markdown(parameter['tooltip'])}")
+    return f"- **`{name} : {kind}`**<br>{values} *{parameter['label']}*: {markdown(parameter['tooltip'])}"
 
 
 def page(description, said=()):
