@@ -102,11 +102,10 @@ FilterText filterText(int filter)
 			"compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge",
 			"<b>Hyperbolic uniformization</b>: flattens a mesh with handles or holes into the "
 			"Poincaré disk, with little angle distortion. The parametrization is by the conformal "
-			"metric "
-			"of curvature -1, for meshes of negative Euler characteristic (two handles, a handle "
-			"and a boundary, or three boundaries), or any with cones that make up for it. Texture "
-			"coordinates are stored per wedge, and the distortion (1 = none) as the "
-			"vertex quality." +
+			"metric of curvature -1, for meshes of negative Euler characteristic (two handles, a "
+			"handle and a boundary, or three boundaries), or any with cones that make up for it. "
+			"Texture coordinates are stored per wedge, and the distortion (1 = none) as the vertex "
+			"quality." +
 				reference};
 	default:
 		throw std::logic_error("This plugin has no filter with that id.");
