@@ -80,9 +80,11 @@ class Flattening(Parametrization):
     iterations: int
     """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
-    """max|K̄ − K| in radians where K is prescribed"""
+    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
+    permits"""
     residual_floor: float
-    """the smallest residual that rounding permits"""
+    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
+    permits"""
     lengthened: float
     """0, except where a face has no area or one side a million times shorter than another: the
     solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
@@ -140,9 +142,11 @@ class Flattening(Parametrization):
     """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
     length in the map at real size to that on the mesh; 1 unless the finish moves it"""
     flipped_faces: int
-    """faces that are flipped or have no area in the plane"""
+    """faces that are flipped or have no area in the plane; additional ones after rounding to
+    float"""
     flipped_by_rounding: int
-    """additional ones after rounding to float"""
+    """faces that are flipped or have no area in the plane; additional ones after rounding to
+    float"""
     finish_moved: int
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
@@ -151,14 +155,17 @@ class Flattening(Parametrization):
     disks) that stopped at their work limit: the map is valid and could be slightly better; the
     log says which"""
     flips: int
-    """intrinsic flips, including those before the flow"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
-    mesh"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     edge_swaps: int
-    """made by Edge swaps"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swaps"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     euler_characteristic: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
@@ -266,9 +273,11 @@ class Uniformization(Parametrization):
     iterations: int
     """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
-    """max|K̄ − K| in radians where K is prescribed"""
+    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
+    permits"""
     residual_floor: float
-    """the smallest residual that rounding permits"""
+    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
+    permits"""
     lengthened: float
     """0, except where a face has no area or one side a million times shorter than another: the
     solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
@@ -326,9 +335,11 @@ class Uniformization(Parametrization):
     """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
     length in the map at real size to that on the mesh; 1 unless the finish moves it"""
     flipped_faces: int
-    """faces that are flipped or have no area in the plane"""
+    """faces that are flipped or have no area in the plane; additional ones after rounding to
+    float"""
     flipped_by_rounding: int
-    """additional ones after rounding to float"""
+    """faces that are flipped or have no area in the plane; additional ones after rounding to
+    float"""
     finish_moved: int
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
@@ -337,14 +348,17 @@ class Uniformization(Parametrization):
     disks) that stopped at their work limit: the map is valid and could be slightly better; the
     log says which"""
     flips: int
-    """intrinsic flips, including those before the flow"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
-    mesh"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     edge_swaps: int
-    """made by Edge swaps"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swaps"""
+    """intrinsic flips, including those before the flow; points of the common refinement that
+    are not vertices of the mesh; swaps and splits made by Edge swaps"""
     euler_characteristic: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
@@ -460,7 +474,8 @@ class Uniformization(Parametrization):
     complex128, the matrices of the isometries"""
     generators_low: Complex
     """with generators, number by number: the digits beyond those of a double. The sum has 31
-    digits; here (n, 2, 2) complex128, the matrices of the isometries"""
+    digits: mpf(high) + mpf(low) of mpmath, with mp.dps = 40; here (n, 2, 2) complex128, the
+    matrices of the isometries"""
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 

@@ -5,8 +5,12 @@
 EUCLIDEAN_RESULTS = \
 {'converged': ('bool', 'always true; anything else is an error'),
  'iterations': ('int', 'Newton steps of all solves, including discarded candidates'),
- 'max_curvature_error': ('float', 'max|K̄ − K| in radians where K is prescribed'),
- 'residual_floor': ('float', 'the smallest residual that rounding permits'),
+ 'max_curvature_error': ('float',
+                         'max|K̄ − K| in radians where K is prescribed; the smallest residual '
+                         'that rounding permits'),
+ 'residual_floor': ('float',
+                    'max|K̄ − K| in radians where K is prescribed; the smallest residual that '
+                    'rounding permits'),
  'lengthened': ('float',
                 '0, except where a face has no area or one side a million times shorter than '
                 'another: the solver lengthens the edges at its vertices, and this is the '
@@ -72,8 +76,12 @@ EUCLIDEAN_RESULTS = \
                         'Euclidean filter, free boundary: the smallest and the largest ratio '
                         "of a boundary edge's length in the map at real size to that on the "
                         'mesh; 1 unless the finish moves it'),
- 'flipped_faces': ('int', 'faces that are flipped or have no area in the plane'),
- 'flipped_by_rounding': ('int', 'additional ones after rounding to float'),
+ 'flipped_faces': ('int',
+                   'faces that are flipped or have no area in the plane; additional ones after '
+                   'rounding to float'),
+ 'flipped_by_rounding': ('int',
+                         'faces that are flipped or have no area in the plane; additional ones '
+                         'after rounding to float'),
  'finish_moved': ('int',
                   'UV vertices that the repair moved; one that is moved again after rounding '
                   'to float counts twice'),
@@ -81,12 +89,21 @@ EUCLIDEAN_RESULTS = \
                  'searches (cones, repair, least distortion or stretch, cuts for packing, '
                  'division of disks) that stopped at their work limit: the map is valid and '
                  'could be slightly better; the log says which'),
- 'flips': ('int', 'intrinsic flips, including those before the flow'),
+ 'flips': ('int',
+           'intrinsic flips, including those before the flow; points of the common refinement '
+           'that are not vertices of the mesh; swaps and splits made by Edge swaps'),
  'refinement_points': ('int',
-                       'points of the common refinement that are not vertices of the mesh; 0 '
-                       'with Keep the mesh'),
- 'edge_swaps': ('int', 'made by Edge swaps'),
- 'boundary_splits': ('int', 'made by Edge swaps'),
+                       'intrinsic flips, including those before the flow; points of the common '
+                       'refinement that are not vertices of the mesh; swaps and splits made by '
+                       'Edge swaps'),
+ 'edge_swaps': ('int',
+                'intrinsic flips, including those before the flow; points of the common '
+                'refinement that are not vertices of the mesh; swaps and splits made by Edge '
+                'swaps'),
+ 'boundary_splits': ('int',
+                     'intrinsic flips, including those before the flow; points of the common '
+                     'refinement that are not vertices of the mesh; swaps and splits made by '
+                     'Edge swaps'),
  'euler_characteristic': ('int',
                           'of the input, cut open where it is not an oriented manifold and at '
                           'the chosen seams'),
@@ -212,6 +229,6 @@ HYPERBOLIC_RESULTS = \
                 'Π[aᵢ, bᵢ] Π eₖ = ±1'),
  'generators_low': ('vector',
                     'with generators, number by number: the digits beyond those of a double. '
-                    'The sum has 31 digits'),
+                    'The sum has 31 digits: mpf(high) + mpf(low) of mpmath, with mp.dps = 40'),
  'generators_error': ('float',
                       'with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums')}
