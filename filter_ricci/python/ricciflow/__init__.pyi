@@ -76,9 +76,11 @@ class Parametrization:
 
 class Flattening(Parametrization):
     converged: bool
-    """always true; anything else is an error"""
+    """always true; anything else is an error; Newton steps of all solves, including discarded
+    candidates"""
     iterations: int
-    """Newton steps of all solves, including discarded candidates"""
+    """always true; anything else is an error; Newton steps of all solves, including discarded
+    candidates"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
     permits"""
@@ -120,10 +122,13 @@ class Flattening(Parametrization):
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
     4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels"""
+    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
+    (length of all seams) / √area"""
     objective: float
-    """Euclidean filter: what Automatic minimises: stretch + 0.05 × (length of all seams) /
-    √area"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
+    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
+    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
+    (length of all seams) / √area"""
     target_used: int
     """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
     free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
@@ -208,10 +213,11 @@ class Flattening(Parametrization):
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """charts (UV islands)"""
+    """charts (UV islands); packing efficiency: fraction of the unit square (without
+    normalize_uv, of the square around all charts) that the charts cover"""
     occupancy: float
-    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
-    around all charts) that the charts cover"""
+    """charts (UV islands); packing efficiency: fraction of the unit square (without
+    normalize_uv, of the square around all charts) that the charts cover"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
@@ -251,10 +257,13 @@ class Flattening(Parametrization):
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
     matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target"""
+    the target; bound of its error: the largest distance, as logarithm, of the energies of
+    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
     period_error: float
-    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
-    (genus 1: the distance in the hyperbolic plane)"""
+    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
+    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
+    the target; bound of its error: the largest distance, as logarithm, of the energies of
+    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
     """with carry_texture, of faces that had a texture: texels of the new one per unit of length
     over those of the old one, mean by area"""
@@ -269,9 +278,11 @@ class Uniformization(Parametrization):
     disk: Complex
     """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""
     converged: bool
-    """always true; anything else is an error"""
+    """always true; anything else is an error; Newton steps of all solves, including discarded
+    candidates"""
     iterations: int
-    """Newton steps of all solves, including discarded candidates"""
+    """always true; anything else is an error; Newton steps of all solves, including discarded
+    candidates"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
     permits"""
@@ -313,10 +324,13 @@ class Uniformization(Parametrization):
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
     4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels"""
+    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
+    (length of all seams) / √area"""
     objective: float
-    """Euclidean filter: what Automatic minimises: stretch + 0.05 × (length of all seams) /
-    √area"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
+    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
+    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
+    (length of all seams) / √area"""
     target_used: int
     """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
     free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
@@ -401,10 +415,11 @@ class Uniformization(Parametrization):
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """charts (UV islands)"""
+    """charts (UV islands); packing efficiency: fraction of the unit square (without
+    normalize_uv, of the square around all charts) that the charts cover"""
     occupancy: float
-    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
-    around all charts) that the charts cover"""
+    """charts (UV islands); packing efficiency: fraction of the unit square (without
+    normalize_uv, of the square around all charts) that the charts cover"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
@@ -444,10 +459,13 @@ class Uniformization(Parametrization):
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
     matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target"""
+    the target; bound of its error: the largest distance, as logarithm, of the energies of
+    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
     period_error: float
-    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
-    (genus 1: the distance in the hyperbolic plane)"""
+    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
+    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
+    the target; bound of its error: the largest distance, as logarithm, of the energies of
+    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
     """with carry_texture, of faces that had a texture: texels of the new one per unit of length
     over those of the old one, mean by area"""
