@@ -263,34 +263,22 @@ class Ply(Folder):
                     old = samples.ply(order, polygons, coordinates=True if place == "coordinates" else None)
                     mesh = files.read(self.file("in.ply", old))
                     uv = by_corner(mesh)
-                    mesh.save(self.folder / "out.ply", uv)
-                    corner = np.zeros((int(mesh.starts[-1]), 2))
-                    corner[mesh.corners] = uv
-                    lists = np.split(corner, mesh.starts[1:-1])
-                    self.assertEqual((self.folder / "out.ply").read_bytes(),
-                                     samples.ply(order, polygons, **{place: lists}))
-
-    def test_only_a_torn_polygon_is_divided(self):
-        for order in (None, "<", ">"):
-            mesh = files.read(self.file("in.ply", samples.ply(order)))
-            uv = by_vertex(mesh)
-            uv[2] += 1
-            mesh.save(self.folder / "out.ply", uv)
-            again = files.read(self.folder / "out.ply")
-            self.assertEqual(len(again.starts), len(mesh.starts) + 1)
-            np.testing.assert_array_equal(again.faces, mesh.faces)
-            np.testing.assert_allclose(again.uv, uv, atol=1e-8)
-            quality = again._by_name["face"].columns["quality"][again.polygon]
-            np.testing.assert_allclose(quality, mesh._by_name["face"].columns["quality"][mesh.polygon])
+                    said = mesh.save(self.folder / "out.ply", uv)
+                    self.assertEqual(
+                        (self.folder / "out.ply").read_bytes(),
+                        samples.ply(order, mesh.faces, origins=mesh.polygon, **{place: uv}))
+                    self.assertEqual(["written as triangles" in s for s in said],
+                                     [] if mesh.all_triangles else [True])
 
     def test_new_picture(self):
-        new = self.file("new.png", samples.png(samples.noise(2, 2)))
+        new = self.file("n\u00e4w \u4e00.png", samples.png(samples.noise(2, 2)))
         for order in (None, "<"):
             content = samples.ply(order, list(samples.TRIANGLES), coordinates=True)
             mesh = files.read(self.file("in.ply", content))
             mesh.save(self.folder / "out.ply", by_vertex(mesh), new)
             again = files.read(self.folder / "out.ply")
-            self.assertEqual([p.name for p in again.pictures], ["new.png"])
+            self.assertEqual([p.name for p in again.pictures], [new.name])
+            self.assertEqual(again.pictures[0].read().shape, (2, 2, 4))
             self.assertTrue((again.uv_picture == 0).all())
 
     def test_strips(self):
@@ -703,10 +691,8 @@ class Others(Folder):
 
     def test_quads_stay_quads(self):
         mesh = files.read(self.file("in.off", samples.off()))
-        for ending in (".obj", ".ply"):
-            mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
-            again = files.read(self.folder / f"out{ending}")
-            self.assertEqual(np.diff(again.starts).tolist(), [4] * 6)
+        mesh.save(self.folder / "out.obj", by_vertex(mesh))
+        self.assertEqual(np.diff(files.read(self.folder / "out.obj").starts).tolist(), [4] * 6)
 
     def test_normals_and_colours_are_carried(self):
         mesh = files.read(self.file("in.ply", samples.ply("<", list(samples.TRIANGLES))))
@@ -998,6 +984,70 @@ class Handed(Gltf):
     test_rich = test_a_gltf_keeps_its_data = test_a_mirrored_mesh_is_mapped_as_it_is_seen = None
     test_new_picture = test_set = test_colours_are_linear = test_compression_is_named = None
     test_transform_of_a_texture = test_quantized = None
+
+
+class OtherReaders(Folder):
+    """PyMeshLab and trimesh find the same faces and coordinates in what is written."""
+
+    def test_pymeshlab(self):
+        try:
+            import pymeshlab
+        except ImportError:
+            self.skipTest("SKIPPED: PyMeshLab is not installed")
+        for path in self.all_samples():
+            if path.suffix == ".ply" and b"extra" in path.read_bytes() or path.name == "all.obj":
+                continue  # PyMeshLab reads no lists of vertices, and ends at faces of six corners
+            mesh = files.read(path)
+            for ending in (".obj", ".ply"):
+                out = self.folder / f"out_{path.stem}{path.suffix[1:]}{ending}"
+                uv, new = by_corner(mesh), self.folder / "a b.png"
+                mesh.save(out, uv, shutil.copy(new, self.folder / "shown.png"))
+                host = pymeshlab.MeshSet()
+                host.load_new_mesh(str(out))
+                host.meshing_poly_to_tri()
+                read = host.current_mesh()
+                self.assertEqual(read.face_number(), len(mesh.faces), out.name)
+                found = read.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+                own = files.read(out)
+                points = read.vertex_matrix()[read.face_matrix()]
+                self.assertEqual(rows(points, found), rows(own.vertices[own.faces], uv), out.name)
+
+    def test_trimesh(self):
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("SKIPPED: trimesh is not installed")
+        for path in self.all_samples():
+            mesh = files.read(path)
+            out, uv = self.folder / "out.glb", by_corner(mesh)
+            mesh.save(out, uv, self.folder / "a b.png")
+            scene = trimesh.load_scene(out, process=False)
+            found, points = [], []
+            for part in scene.geometry.values():
+                if hasattr(part, "faces"):
+                    found.append(part.visual.uv[part.faces])
+                    points.append(part.vertices[part.faces])
+            again = files.read(out)
+            np.testing.assert_allclose(again.uv, uv, atol=1e-6)
+            own = np.concatenate([self.of_file(again, uv, p) for p in again.parts])
+            self.assertEqual(rows(np.concatenate(points), np.concatenate(found), 4),
+                             rows(own[..., :3], own[..., 3:], 4), path.name)
+
+    @staticmethod
+    def of_file(mesh, uv, part):
+        """(f, 3, 5) A part as its file has it, where mirrored ones are not turned."""
+        corners = np.concatenate([mesh.vertices[mesh.faces[part.faces]], uv[part.faces]], 2)
+        return corners[:, [0, 2, 1]] * [-1, 1, 1, 1, 1] if part.mirrored else corners
+
+
+def rows(points, uv, digits=5):
+    """Triangles without their order: corners rounded, the smallest first."""
+    corners = np.round(np.concatenate([points, uv], 2), digits) + 0.0
+    found = []
+    for triangle in corners.tolist():
+        first = triangle.index(min(triangle))
+        found.append(triangle[first:] + triangle[:first])
+    return sorted(found)
 
 
 if __name__ == "__main__":

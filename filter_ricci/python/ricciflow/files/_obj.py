@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, counts_between, digits,
-                      distinct, mixed, numbers, relative, rewritten, spliced, table, word_starts,
-                      without_comments, words_of_lines, write_file)
+from ._shared import (FileError, MeshFile, beside, copy_beside, counted, distinct, mixed, relative, rewritten,
+                      write_file)
+from ._text import (Lines, counts_between, digits, numbers, spliced, table, word_starts, without_comments,
+                    words_of_lines)
 
 # Options of map_Kd and how many words follow; -o, -s, -t have up to three numbers.
 _OPTIONS = {b'-blendu': 1, b'-blendv': 1, b'-boost': 1, b'-mm': 2, b'-o': 3, b'-s': 3, b'-t': 3,

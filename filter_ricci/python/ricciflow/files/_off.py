@@ -5,7 +5,8 @@ import re
 
 import numpy as np
 
-from ._shared import FileError, Lines, MeshFile, numbers, whole, without_comments, words_of_lines
+from ._shared import FileError, MeshFile
+from ._text import Lines, numbers, whole, without_comments, words_of_lines
 
 _HEAD = re.compile(rb'(ST)?(C)?(N)?(4)?(n)?OFF(\s+BINARY)?')
 

@@ -12,7 +12,8 @@ from xml.parsers import expat
 import numpy as np
 
 from . import _pictures
-from ._shared import FileError, MeshFile, Part, distinct, rewritten, table, write_file
+from ._shared import FileError, MeshFile, Part, distinct, rewritten, write_file
+from ._text import table
 
 _MATERIALS = 'http://schemas.microsoft.com/3dmanufacturing/material/2015/02'
 _TEXTURE = 'http://schemas.microsoft.com/3dmanufacturing/2013/01/3dtexture'
