@@ -220,8 +220,7 @@ class Concave(unittest.TestCase):
     def test_comb(self):
         teeth = 20
         top = [
-            p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))
-        ]
+            p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))]
         corners = [(0, 0), (2 * teeth, 0), *top]
         self.check(corners, shoelace(corners))
 
@@ -297,11 +296,9 @@ class Ply(Folder):
         text = (
             b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
             b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
-            b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n"
-        )
+            b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n")
         np.testing.assert_allclose(
-            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7
-        )
+            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
 
     def test_it_is_cut_off(self):
         for order in (None, "<", ">"):
@@ -388,8 +385,7 @@ class Gltf(Folder):
                 continue
             self.assertEqual(old.json.get(key), new.json.get(key), key)
         self.assertEqual(
-            [m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]]
-        )
+            [m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]])
         for (p, was), (q, now) in zip(old.corners(), new.corners(), strict=True):
             for key, rows in was.items():
                 self.assertEqual(rows, now[key], key)
@@ -460,9 +456,7 @@ class Gltf(Folder):
                 [
                     n @ (m - 0.5)
                     for n, m in zip(
-                        areas(samples.CUBE, samples.TRIANGLES), samples.CUBE[samples.TRIANGLES].mean(1)
-                    )
-                ]
+                        areas(samples.CUBE, samples.TRIANGLES), samples.CUBE[samples.TRIANGLES].mean(1))]
             ).tolist(),
         )
         np.testing.assert_array_equal(mesh.sized_vertices()[mesh.parts[1].vertices],
@@ -491,8 +485,7 @@ class Gltf(Folder):
         self.assertEqual(now[0, "TEXCOORD_1"], old[0, "TEXCOORD_0"])
         self.assertEqual(now[0, "COLOR_0"], old[0, "COLOR_0"])  # it multiplies the picture, as before
         self.assertEqual(
-            plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}}
-        )
+            plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}})
         self.assertEqual(out.json["materials"][:2], Attributes(path).json["materials"])
         for mesh in out.json["meshes"]:
             for primitive in mesh["primitives"]:
@@ -514,8 +507,7 @@ class Gltf(Folder):
     def test_colours_are_linear(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
         np.testing.assert_array_equal(
-            np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1))
-        )
+            np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1)))
         self.assertEqual(np.rint(255 * mesh.material_colours[0]).tolist()[:3], [188, 255, 255])
 
     def test_compression_is_named(self):
@@ -542,8 +534,7 @@ class Gltf(Folder):
 
     def test_quantized(self):
         out = samples.Gltf(
-            extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"]
-        )
+            extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"])
         out.node(out.mesh({"attributes": {"POSITION": out.accessor(
             np.array([(0, 0, 0), (127, 0, 0), (0, -127, 0)], "i1"), padding=1, normalized=True)}}))
         mesh = files.read(self.file("in.glb", out.glb()))
@@ -589,8 +580,7 @@ class Validator(Folder):
             "const v=require('gltf-validator'),fs=require('fs');(async()=>{"
             "for(const f of process.argv.slice(1)){"
             "const r=await v.validateBytes(new Uint8Array(fs.readFileSync(f)));"
-            "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()"
-        )
+            "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()")
         run = subprocess.run(
             [node, "-e", script, "--", *map(str, written)],
             capture_output=True,
@@ -606,8 +596,7 @@ class ThreeMf(Folder):
         mesh = files.read(self.file("in.3mf", samples.threemf()))
         self.assertEqual(len(mesh.faces), 24)
         self.assertEqual(
-            [(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)]
-        )
+            [(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)])
         colours = np.rint(255 * mesh.corner_colours())
         self.assertEqual(colours[0].tolist(), [[255, 0, 0, 255], [0, 255, 0, 128], [255, 0, 0, 255]])
         self.assertEqual(colours[5].tolist(), [[255] * 4] * 3)
@@ -676,8 +665,7 @@ class Others(Folder):
                             continue
                         if path.suffix != ".3mf" or ending == ".3mf":  # 3MF places its objects
                             np.testing.assert_allclose(
-                                again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6
-                            )
+                                again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6)
 
     def test_a_scene_is_placed(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
@@ -698,8 +686,7 @@ class Others(Folder):
         mesh = files.read(self.file("in.ply", samples.ply("<", list(samples.TRIANGLES))))
         mesh._by_name["vertex"].types.update(ny=("f4", None), nz=("f4", None))
         mesh._by_name["vertex"].columns.update(
-            nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4")
-        )
+            nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4"))
         mesh.save(self.folder / "out.glb", by_vertex(mesh))
         out = next(Attributes(self.folder / "out.glb").corners())[1]
         self.assertEqual(set(out[0, "NORMAL"]), {struct.pack("<3f", 1, 0, 0)})
@@ -713,8 +700,7 @@ class Others(Folder):
         for ending in files.WRITES:
             mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
             np.testing.assert_allclose(
-                files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6
-            )
+                files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6)
 
 
 class Refined(Folder):
@@ -727,8 +713,7 @@ class Refined(Folder):
                 with self.subTest(path=path.name, ending=ending):
                     new = self.file("new.png", samples.png(samples.noise(2, 2)))
                     mesh.save(
-                        self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights)
-                    )
+                        self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights))
                     again = files.read(self.folder / f"out{ending}")
                     self.assertEqual(len(again.faces), len(faces))
                     np.testing.assert_allclose(again.uv, uv, atol=1e-6)

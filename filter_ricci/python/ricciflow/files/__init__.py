@@ -37,8 +37,7 @@ def read(path):
     if reader is None:
         raise FileError(
             f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
-            f'or PyMeshLab; {", ".join(READS)} are'
-        )
+            f'or PyMeshLab; {", ".join(READS)} are')
     try:
         return reader(path)
     except FileNotFoundError:

@@ -235,8 +235,7 @@ class ObjFile(MeshFile):
         mask[~plain, 0] = False
         begin = np.r_[at[stays], self._lines.begin[gone], numbers_of_lines[:, 0]]
         end = np.r_[
-            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]
-        ]
+            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]]
         order = np.argsort(begin, kind='stable')
         rows = np.r_[rows[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), np.uint8)][order]
         mask = np.r_[mask[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), bool)][order]
@@ -264,8 +263,7 @@ class ObjFile(MeshFile):
         late = (
             self._relative or any(len(k) and k[-1] > self._f[0] for k in (self._v, self._vn))
             if vertices
-            else False
-        )
+            else False)
         tail = b''.join(vertices) if late else b''
         if tail and not self._data.endswith(b'\n'):
             tail = b'\n' + tail
@@ -283,9 +281,7 @@ class ObjFile(MeshFile):
             (self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
             for line in self._lines.beginning(b'l')
             for match in re.finditer(
-                rb'/[^\s/]*', self._data[self._lines.begin[line] : self._lines.end[line]]
-            )
-        ]
+                rb'/[^\s/]*', self._data[self._lines.begin[line] : self._lines.end[line]])]
 
     def _second_numbers(self):
         """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
@@ -441,8 +437,7 @@ def plain(mesh):
         out.append(table('v %.17g %.17g %.17g\n', mesh.vertices))
     else:
         out.append(
-            table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]])
-        )
+            table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]]))
     corner = np.zeros(int(mesh.starts[-1]), np.int64)
     corner[mesh.corners] = mesh.faces + 1
     normals = mesh.corner_normals()

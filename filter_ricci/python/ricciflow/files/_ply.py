@@ -78,8 +78,7 @@ class PlyFile(MeshFile):
             try:
                 if words[:1] == ['format']:
                     self._order = {'ascii': None, 'binary_little_endian': '<', 'binary_big_endian': '>'}[
-                        words[1]
-                    ]
+                        words[1]]
                     known = True
                 elif words[:1] == ['element']:
                     self._elements.append(_Element(words[1], int(words[2])))
@@ -219,8 +218,7 @@ class PlyFile(MeshFile):
         count = (
             words_of_lines(self._text[lines[0] :], lines[:-1] - lines[0])
             if len(lines) > 1
-            else np.zeros(0, int)
-        )
+            else np.zeros(0, int))
         used = np.flatnonzero(count)[:n]
         if len(used) < n:
             if self._by_words(element):
@@ -315,8 +313,7 @@ class PlyFile(MeshFile):
             table['n'], table['v'] = 3, faces
             rows = table.tobytes()
         self.__init__(
-            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :]
-        )
+            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :])
         self.messages.append('strips of triangles are written as faces')
 
     def _read_mesh(self):
@@ -602,8 +599,7 @@ def plain(mesh):
         heads = [n.tobytes() for n in count.astype(kind[0])]
         starts = mesh.starts.tolist()
         rows = b''.join(
-            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:]))
-        )
+            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:])))
     lines = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(mesh.vertices)}', *header,
              f'element face {len(count)}', f'property list {kind[1]} int vertex_indices', 'end_header', '']
     return '\n'.join(lines).encode() + table.tobytes() + rows

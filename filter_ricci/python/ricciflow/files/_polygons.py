@@ -83,8 +83,7 @@ def _clip_ears(points):
             + (cx - bx) ** 2
             + (cy - by) ** 2
             + (ax - cx) ** 2
-            + (ay - cy) ** 2
-        )
+            + (ay - cy) ** 2)
         return area / sides if sides > 0 else 0.0
 
     shapes = np.array([shape(i) for i in range(n)])

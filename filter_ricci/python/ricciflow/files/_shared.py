@@ -135,8 +135,7 @@ class MeshFile:
             if few.any():
                 self.messages.append(
                     f'{counted(int(few.sum()), "face")} with less than 3 corners, first face '
-                    f'{int(few.argmax()) + 1}: not mapped'
-                )
+                    f'{int(few.argmax()) + 1}: not mapped')
             corners, polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
             self._polygons = starts, corners, polygon
             self.faces = corner_vertices[corners]
@@ -249,23 +248,20 @@ def placed(mesh, uv, refined, shows_picture):
     plain, messages = PlainMesh(mesh.path), []
     colours, normals = None if shows_picture else mesh.corner_colours(), mesh.corner_normals()
     if mesh.pictures and not shows_picture:
-        messages.append(
-            f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format'
-        )
+        messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another '
+                        'format')
     vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     if refined is not None:
         faces, points, _ = _numbered(mesh, refined)
         vertices, origin = np.concatenate([vertices, points]), refined.origin
-        colours, normals = (
-            (
-                None
-                if a is None
-                else mixed(
-                    a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]), refined.weights.reshape(-1, 3)
-                ).reshape(-1, *a.shape[1:])
-            )
-            for a in (colours, normals)
-        )
+        weights = refined.weights.reshape(-1, 3)
+
+        def at_corners(values):
+            if values is None:
+                return None
+            of_origin = values[origin][:, None].repeat(3, 1).reshape(-1, 3, values.shape[-1])
+            return mixed(of_origin, weights).reshape(-1, 3, values.shape[-1])
+        colours, normals = at_corners(colours), at_corners(normals)
     stays = all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts)
     if refined is None and stays:
         plain.vertices, plain.faces, plain._polygons = vertices, faces, mesh._polygons
