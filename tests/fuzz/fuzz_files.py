@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged files for ricciflow.files: each is read and written again, or refused by FileError, within ten
-seconds and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with a Python that has numpy."""
+seconds and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with numpy."""
 
 import os
 import random

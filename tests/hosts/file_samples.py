@@ -94,8 +94,8 @@ MTL = (b"newmtl red\nKd 0.8 0.1 0.1\nd 0.5\nmap_Bump bump.png\nnewmtl picture\nK
 def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None, origins=None):
     """(bytes) A PLY with properties of all kinds; order None is ascii.
 
-    Coordinates of each polygon, (n, 2), lie before the last property (coordinates) or after it (last); True: any.
-    The other properties of a polygon are those of its origin, by itself its own number.
+    Coordinates of each polygon, (n, 2), lie before the last property (coordinates) or after it (last);
+    True: any. The other properties of a polygon are those of its origin, by itself its own number.
     """
     polygons = list(QUADS) + [QUADS[0][[0, 1, 2]]] if polygons is None else polygons
     if coordinates is True:
@@ -141,7 +141,8 @@ def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None, origin
                 *[("i2", -k) for k in range(i % 3)],
             ])
     for i, polygon in enumerate(polygons):
-        row = [("f4", (i if origins is None else origins[i]) / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
+        number = i if origins is None else origins[i]
+        row = [("f4", number / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
         row += (listed(coordinates[i]) if coordinates is not None else []) + [("i4", 0)]
         rows.append(row + (listed(last[i]) if last is not None else []))
     rows += [[("i4", 0), ("i4", 1)], [("i4", 2), ("i4", 3)]]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of meshes: what is read of them, and that all but texture coordinates stays.
-Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; uses Pillow and node where they are."""
+Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; uses Pillow and node as well."""
 
 import glob
 import io
@@ -972,7 +972,7 @@ class Handed(Gltf):
 
 
 class OtherReaders(Folder):
-    """PyMeshLab and trimesh find the same faces and coordinates in what is written."""
+    """PyMeshLab, trimesh and Blender find the same faces and coordinates in what is written."""
 
     def test_pymeshlab(self):
         try:
@@ -1018,6 +1018,33 @@ class OtherReaders(Folder):
             self.assertEqual(rows(np.concatenate(points), np.concatenate(found), 4),
                              rows(own[..., :3], own[..., 3:], 4), path.name)
 
+    def test_blender(self):
+        try:
+            import bpy
+        except ImportError:
+            self.skipTest("SKIPPED: Blender (bpy) is not installed")
+        self.all_samples()
+        for name in ("even.ply", "cube.stl", "cube.off", "cube.3mf"):
+            mesh = files.read(self.folder / name)
+            for ending in (".obj", ".glb"):
+                out, uv = self.folder / f"out{ending}", by_corner(mesh)
+                mesh.save(out, uv, self.folder / "a b.png")
+                bpy.ops.wm.read_factory_settings(use_empty=True)
+                if ending == ".obj":
+                    bpy.ops.wm.obj_import(filepath=str(out), forward_axis="Y", up_axis="Z")
+                else:
+                    bpy.ops.import_scene.gltf(filepath=str(out))
+                read, = (o.data for o in bpy.data.objects if o.type == "MESH")
+                read.calc_loop_triangles()
+                loops = np.array([t.loops for t in read.loop_triangles])
+                points = np.array([read.vertices[i.vertex_index].co for i in read.loops])[loops]
+                found = np.array([d.uv for d in read.uv_layers[0].data])[loops]
+                if ending == ".glb":  # y is up in glTF
+                    points = points[..., [0, 2, 1]] * [1, 1, -1]
+                own = files.read(out)
+                self.assertEqual(len(read.polygons), len(own.starts) - 1)
+                self.assertEqual(rows(points, found, 3), rows(own.vertices[own.faces], uv, 3), out.name)
+
     @staticmethod
     def of_file(mesh, uv, part):
         """(f, 3, 5) A part as its file has it, where mirrored ones are not turned."""
@@ -1027,7 +1054,7 @@ class OtherReaders(Folder):
 
 def rows(points, uv, digits=5):
     """Triangles without their order: corners rounded, the smallest first."""
-    corners = np.round(np.concatenate([points, uv], 2), digits) + 0.0
+    corners = np.round(np.concatenate([points, uv], 2).astype(float), digits) + 0.0
     found = []
     for triangle in corners.tolist():
         first = triangle.index(min(triangle))

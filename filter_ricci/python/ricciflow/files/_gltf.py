@@ -107,8 +107,8 @@ class GltfFile(MeshFile):
 
     def _refuse_compressed(self, extension):
         if extension in _COMPRESSED:
-            raise FileError(f'{self.path.name} is compressed with {_COMPRESSED[extension]} ({extension}), which '
-                            'is not read here: export it without compression')
+            raise FileError(f'{self.path.name} is compressed with {_COMPRESSED[extension]} ({extension}), '
+                            'which is not read here: export it without compression')
 
     def _buffer(self, number, buffer, body):
         uri, length = buffer.get('uri'), buffer['byteLength']

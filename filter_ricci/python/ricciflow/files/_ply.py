@@ -390,8 +390,8 @@ class PlyFile(MeshFile):
         body.append(self._data[self._elements[-1].end:])
         write_file(path, b''.join([header, *body]))
         files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
-        messages = [f'{counted(int(large.sum()), "face")} with more than 3 corners: written as triangles, since '
-                    'MeshLab reads no others with texture coordinates'] if large.any() else []
+        messages = [f'{counted(int(large.sum()), "face")} with more than 3 corners: written as triangles, '
+                    'since MeshLab reads no others with texture coordinates'] if large.any() else []
         return messages + copy_beside(files, self.path.parent, path.parent)
 
     def _new_header(self, path, face, faces, vertices, texture):
