@@ -47,7 +47,7 @@ class OffFile(MeshFile):
         values = numbers(text.tobytes())
         if vertices and (len(values) % vertices or len(values) < 3 * vertices):
             return False
-        values = values.reshape(vertices, len(values) // max(vertices, 1))
+        values = values.reshape(vertices, len(values) // vertices if vertices else 3)
         self.vertices = np.ascontiguousarray(values[:, :3])
         colours = values[:, 3 + normals:7 + normals]
         if colours.shape[1] >= 3:

@@ -275,14 +275,16 @@ def placed(mesh, uv, refined, shows_picture):
             for matrix in part.matrices:
                 turn = matrix[:3, :3] * ([-1, 1, 1] if part.mirrored else [1, 1, 1])
                 order = [0, 1, 2] if _volume(turn) >= 0 else [0, 2, 1]
-                lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
+                with np.errstate(invalid='ignore', over='ignore'):
+                    lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
                 lists[1].append(index.reshape(-1, 3)[:, order] + count)
                 lists[2].append(uv[mine][:, order])
                 if colours is not None:
                     lists[3].append(colours[mine][:, order])
                 if normals is not None:
                     adjugate = np.stack([np.cross(turn[k - 2], turn[k - 1]) for k in range(3)])
-                    lists[4].append((normals[mine] @ adjugate.T)[:, order])
+                    with np.errstate(invalid='ignore', over='ignore'):
+                        lists[4].append((normals[mine] @ adjugate.T)[:, order])
                 count += len(used)
         plain.vertices, plain.faces, uv = (np.concatenate(a) if a else b for a, b in zip(
             lists, (np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 3, 2)))))
