@@ -667,6 +667,15 @@ class Others(Folder):
                             np.testing.assert_allclose(
                                 again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6)
 
+    def test_colours_that_go_are_said(self):
+        mesh = files.read(self.file("in.off", samples.off(False)))
+        mesh.face_colours[::4, 0] = 1
+        said = {e: mesh.save(self.folder / f"out{e}", by_vertex(mesh)) for e in files.WRITES}
+        self.assertTrue(all("colours of faces" in said[e][0] for e in (".obj", ".ply", ".3mf")))
+        self.assertEqual(said[".glb"], [])
+        np.testing.assert_allclose(files.read(self.folder / "out.glb").corner_colours(), mesh.corner_colours(),
+                                   atol=1e-6)
+
     def test_a_scene_is_placed(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
         mesh.save(self.folder / "out.obj", by_corner(mesh))

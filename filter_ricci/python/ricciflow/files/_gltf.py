@@ -343,6 +343,9 @@ class GltfFile(MeshFile):
 
     # Writing
 
+    def holds(self, plain):
+        return True
+
     def _same_format(self, path):
         return path.suffix.lower() in ('.glb', '.gltf')
 

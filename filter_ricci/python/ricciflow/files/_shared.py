@@ -210,7 +210,13 @@ class MeshFile:
             return self._patch(path, uv, texture, refined, uv_set)
         plain, uv, messages = placed(self, uv, refined, texture is not None)
         target = self._converted(path, plain)
+        if plain.colours is not None and not target.holds(plain):
+            messages.append('colours of faces: not written in this format')
         return messages + target._patch(path, uv, texture, None, uv_set)
+
+    def holds(self, plain):
+        """Whether the format can have the colours of a PlainMesh."""
+        return plain.vertex_colours is not None
 
     def _same_format(self, path):
         return path.suffix.lower() == self.path.suffix.lower()

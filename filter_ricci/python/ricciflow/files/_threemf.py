@@ -216,6 +216,9 @@ class ThreeMfFile(MeshFile):
                 stack += [(model, c, here, depth + 1) for c in mesh.components]
         return places
 
+    def holds(self, plain):
+        return False
+
     def corner_colours(self):
         return getattr(self, '_colours', None)
 
