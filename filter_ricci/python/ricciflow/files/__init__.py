@@ -9,6 +9,8 @@ All that is in the file stays in it; see MeshFile.save.
 
 from pathlib import Path
 
+import numpy as np
+
 from . import _gltf, _obj, _off, _ply, _stl, _threemf
 from ._pictures import Picture, decode as read_picture, write as write_picture
 from ._shared import FileError, MeshFile, Part, PlainMesh, Refined, remarks
@@ -26,6 +28,7 @@ WRITES = tuple(_PLAIN)
 """Endings of files that are written."""
 
 
+@np.errstate(all='ignore')  # files hold any numbers
 def read(path):
     """The mesh of a file, by its ending: OBJ, PLY, GLB, glTF, STL, OFF, 3MF.
 

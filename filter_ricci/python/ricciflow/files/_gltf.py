@@ -330,6 +330,7 @@ class GltfFile(MeshFile):
             self.pictures.append(_pictures.Picture(name, source))
 
     @_guarded
+    @np.errstate(all='ignore')
     def corner_normals(self):
         result = np.full((len(self.faces), 3, 3), np.nan, np.float32)
         for primitive, p in zip(self._primitives, self._used()):
@@ -690,8 +691,7 @@ def _distinct(corners, uv):
 def plain(mesh):
     """(bytes) A GLB of the mesh without texture coordinates, all parts in one primitive."""
     colours, normals = mesh.corner_colours(), mesh.corner_normals()
-    with np.errstate(over='ignore'):
-        points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
+    points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
     if not np.isfinite(points).all():
         raise FileError(
             f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only')

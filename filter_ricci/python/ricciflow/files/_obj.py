@@ -195,6 +195,7 @@ class ObjFile(MeshFile):
             self._moved = [(np.flatnonzero(current == k), m) for k, m in enumerate(known)
                            if m and m.picture and (m.scale != [1, 1] or m.offset != [0, 0])]
 
+    @np.errstate(all='ignore')
     def corner_normals(self):
         if self._slashes is None or not (self._slashes == 2).any() or not len(self._vn):
             return None

@@ -361,6 +361,7 @@ class PlyFile(MeshFile):
                 return np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
         return None
 
+    @np.errstate(all='ignore')
     def corner_normals(self):
         vertex = self._by_name['vertex']
         if not all(p in vertex.types and vertex.types[p][1] is None for p in ('nx', 'ny', 'nz')):
@@ -544,8 +545,7 @@ def _name(text):
 
 
 def _typed(values, kind):
-    with np.errstate(over='ignore'):
-        return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
+    return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
 
 
 def _spread(begin, counts, size):
@@ -574,8 +574,7 @@ def _colours(element):
 
 def plain(mesh):
     """(bytes) A binary PLY of the mesh without texture coordinates."""
-    with np.errstate(over='ignore'):
-        single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
+    single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
     kind, word = ('<f4', 'float') if single else ('<f8', 'double')
     fields, header = [(p, kind) for p in 'xyz'], [f'property {word} {p}' for p in 'xyz']
     if mesh.vertex_colours is not None:

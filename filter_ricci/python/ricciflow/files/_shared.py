@@ -154,6 +154,7 @@ class MeshFile:
             sized[part.vertices] *= part.scale
         return sized
 
+    @np.errstate(all='ignore')
     def corner_colours(self):
         """(F, 3, 4) float32, or None: what faces without a picture show."""
         factors = []
@@ -178,6 +179,7 @@ class MeshFile:
 
     # Writing
 
+    @np.errstate(all='ignore')
     def save(self, path, uv, texture=None, *, refined=None, uv_set=None):
         """Writes the file to `path` with other texture coordinates; all else in it stays.
 
@@ -281,16 +283,14 @@ def placed(mesh, uv, refined, shows_picture):
             for matrix in part.matrices:
                 turn = matrix[:3, :3] * ([-1, 1, 1] if part.mirrored else [1, 1, 1])
                 order = [0, 1, 2] if _volume(turn) >= 0 else [0, 2, 1]
-                with np.errstate(invalid='ignore', over='ignore'):
-                    lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
+                lists[0].append(vertices[used] @ turn.T + matrix[:3, 3])
                 lists[1].append(index.reshape(-1, 3)[:, order] + count)
                 lists[2].append(uv[mine][:, order])
                 if colours is not None:
                     lists[3].append(colours[mine][:, order])
                 if normals is not None:
                     adjugate = np.stack([np.cross(turn[k - 2], turn[k - 1]) for k in range(3)])
-                    with np.errstate(invalid='ignore', over='ignore'):
-                        lists[4].append((normals[mine] @ adjugate.T)[:, order])
+                    lists[4].append((normals[mine] @ adjugate.T)[:, order])
                 count += len(used)
         plain.vertices, plain.faces, uv = (np.concatenate(a) if a else b for a, b in zip(
             lists, (np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 3, 2)))))
