@@ -255,6 +255,8 @@ def _solve(function, mesh, faces, progress, keywords, parameters):
     else:
         given = _loading.given(mesh, faces)
         with_keywords(given, **keywords, parameters=parameters)
+        if given.file is not None and given.file.split:
+            parameters.setdefault("join_vertices", "Always")
         outputs, log, messages = run_arrays(number, given, parameters, progress)
         result = kind(outputs, log, messages, given.name, given.file,
                       parameters.get("carry_texture", ""))
