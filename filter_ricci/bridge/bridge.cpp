@@ -632,8 +632,8 @@ Outcome applyFilter(int filter, const Parameters& par, MeshDocument& md, ricci::
 										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		listener.log(line);
-	for (const std::string& line : outcome.sentences)
-		progress.log(line);
+	for (std::string& line : outcome.sentences)
+		listener.log(line = withNames(filter, line));
 	if (*host::kHistogramName != 0)
 		listener.log(whereToLook(valueOf<bool>(par, "colorize"), outcome.results));
 	return outcome;

@@ -99,6 +99,7 @@ std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
 			cb, [this](const std::string& line) { this->log(line); });
 		const auto outcome =
 			filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
+		progress.warn(outcome.sentences);
 		postConditionMask = static_cast<unsigned int>(outcome.changedElements);
 		return toMap(outcome.results);
 	}

@@ -84,6 +84,14 @@ HostProgress::HostProgress(vcg::CallBackPos* callback, Log log) :
 void HostProgress::log(const std::string& line)
 {
 	m_log(line);
+	if (listener != nullptr)
+		listener(-1, line.c_str());
+}
+
+void HostProgress::warn(const std::vector<std::string>& sentences) const
+{
+	for (std::size_t i = 1; listener != nullptr && i < sentences.size(); ++i)
+		listener(-2, sentences[i].c_str());
 }
 
 bool HostProgress::update(double fraction, const std::string& what)

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace filter_ricci {
 
@@ -18,8 +19,9 @@ RichParameterList richParameters(int filter);
 /// Those that \p par has, by their names; the others have their defaults.
 Parameters fromRich(int filter, const RichParameterList& par);
 
-/// Told of the progress of this thread's runs besides the host, many times a second, unless it is null; false
-/// cancels. PyMeshLab's own callback cannot.
+/// Told of this thread's runs besides the host, unless it is null: percent of the work that is done and what is being
+/// done, many times a second, and false cancels; -1 and a line of the log; -2 and one of those lines, once more, that
+/// is a doubt about the map. PyMeshLab's own callback cannot cancel, and its log is not given to programs.
 extern thread_local vcg::CallBackPos* listener;
 
 /// Speaks to the host, and to the listener.
@@ -33,6 +35,9 @@ public:
 
 	void log(const std::string& line) override;
 	bool update(double fraction, const std::string& what) override;
+
+	/// Tells the listener the doubts among an Outcome's sentences.
+	void warn(const std::vector<std::string>& sentences) const;
 
 private:
 	vcg::CallBackPos* m_callback;

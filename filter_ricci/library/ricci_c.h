@@ -152,9 +152,10 @@ RICCI_API int32_t ricci_add_picture(ricci_run* run, const char* name, const ricc
 
 /* Called by ricci_execute(), in the thread that called it.
  * context: as given to ricci_set_listener()
- * fraction: the share of the work that is done, 0 to 1, many times a second; -1: text is a line for the log
+ * fraction: the share of the work that is done, 0 to 1, many times a second; -1: text is a line for the log; -2: text
+ *     is one of those lines, once more, at the end of the run: a doubt about the map that was made
  * text: what is being done, or a line without a line end; valid during the call only
- * Returns other than 0 to go on, 0 to cancel. Of log lines the answer is not read. It must return: no exception, no
+ * Returns other than 0 to go on, 0 to cancel. Of lines the answer is not read. It must return: no exception, no
  * longjmp. It may not use the run. */
 typedef int32_t (*ricci_listener)(void* context, double fraction, const char* text);
 

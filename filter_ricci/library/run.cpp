@@ -149,6 +149,12 @@ public:
 			m_listener(m_context, -1.0, line.c_str());
 	}
 
+	void warn(const std::string& line)
+	{
+		if (m_listener != nullptr)
+			m_listener(m_context, -2.0, line.c_str());
+	}
+
 	bool update(double fraction, const std::string& what) override
 	{
 		return m_listener == nullptr || m_listener(m_context, fraction, what.c_str()) != 0;
@@ -495,6 +501,8 @@ void LibraryRun::execute()
 	fill(document);
 	Listener listener(m_listener, m_context);
 	const Outcome outcome = applyFilter(m_filter, m_parameters, document, listener);
+	for (std::size_t i = 1; i < outcome.sentences.size(); ++i)
+		listener.warn(outcome.sentences[i]);
 
 	std::vector<Array> arrays;
 	Outputs outputs(arrays);

@@ -4,24 +4,41 @@
 
 The cuts are where the texture coordinates of the mesh jump. With ANGLE, in degrees, they are the
 creases: edges whose faces turn by more. It is cut further only where it has to be. With pip install
-pymeshlab_ricci-*.whl."""
+ricciflow-*.whl."""
 
 import sys
 
-from pymeshlab import MeshSet
-from pymeshlab_ricci import Refused, flatten
+import numpy
+from ricciflow import Refused, files, flatten
 
-mesh, out = sys.argv[1:3]
-documents = MeshSet()
-documents.load_new_mesh(mesh)
-seams = "Existing texture seams"
-if len(sys.argv) > 3:
-    angle = float(sys.argv[3])
-    documents.compute_selection_crease_per_edge(angledegneg=-angle, angledegpos=angle)
-    seams = "Selected edges"
-try:
-    result = flatten(documents, seams=seams)
-except Refused as refusal:
-    sys.exit(f"{mesh}: {refusal}")
-print(f"{result.chosen_seam_edges} edges as chosen, {result.seam_edges} more, {result.charts} charts")
-result.save(out)
+
+def creases(vertices, faces, degrees):
+    """The edges of two faces whose normals differ by more, as pairs of vertices."""
+    corners = vertices[faces]
+    normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    sides = numpy.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    order = numpy.lexsort(sides.T)
+    sides, face = sides[order], order // 3
+    pairs = numpy.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+    cosines = (normals[face[pairs]] * normals[face[pairs + 1]]).sum(axis=1)
+    return sides[pairs[cosines < numpy.cos(numpy.radians(degrees))]]
+
+
+def main(path, out, angle=None):
+    mesh = files.read(path)
+    chosen = {"seams": "Existing texture seams"}
+    if angle is not None:
+        chosen = {"selected_edges": creases(mesh.vertices, mesh.faces, float(angle))}
+    try:
+        result = flatten(mesh, **chosen)
+    except Refused as refusal:
+        sys.exit(f"{path}: {refusal}")
+    print(f"{result.chosen_seam_edges} edges as chosen, {result.seam_edges} more, {result.charts} charts")
+    result.save(out)
+
+
+if __name__ == "__main__":
+    if not 3 <= len(sys.argv) <= 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -6,7 +6,7 @@ surfaces of genus 1 to 3, up to the choice of a homology basis (for genus 1 it i
 mirror image has minus the conjugate), the modulus of annuli, the aspect of disks with four corners,
 which are the selected vertices of the file or those that the filter chooses. Size, place and pose do
 not matter, and a bend without stretch changes nothing. Closed surfaces of genus 0 are all equivalent.
-With pip install pymeshlab_ricci-*.whl.
+With pip install ricciflow-*.whl.
 """
 
 import math
@@ -14,7 +14,7 @@ import sys
 
 import numpy
 from pymeshlab import MeshSet
-from pymeshlab_ricci import flatten
+from ricciflow import flatten
 
 # Within this distance all bases of two surfaces of the same genus are searched.
 FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 0.4}

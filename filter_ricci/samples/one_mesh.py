@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flattens one mesh and saves it with its texture coordinates: one_mesh.py IN OUT [Disk, ...].
 
-With pip install pymeshlab_ricci-*.whl. The command "python -m pymeshlab_ricci IN OUT" does the
+With pip install ricciflow-*.whl. The command "python -m ricciflow IN OUT" does the
 same, with every parameter, and whole folders."""
 
 import sys
 
-from pymeshlab_ricci import Refused, flatten
+from ricciflow import Refused, flatten
 
+if not 3 <= len(sys.argv) <= 4:
+    sys.exit(__doc__)
 mesh, out, target = (sys.argv[1:] + ["Automatic"])[:3]
 try:
     result = flatten(mesh, target_curvature=target)

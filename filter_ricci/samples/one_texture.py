@@ -3,13 +3,15 @@
 """New texture coordinates for a textured mesh, and its texture drawn for them: one_texture.py IN OUT [SIZE].
 
 OUT, a PLY or OBJ file, gets the image beside it: 1024 to 16384 texels wide, as many as keep the detail
-of the old textures, or SIZE. With pip install pymeshlab_ricci-*.whl."""
+of the old textures, or SIZE. With pip install ricciflow-*.whl."""
 
 import os
 import sys
 
-from pymeshlab_ricci import Refused, flatten
+from ricciflow import Refused, flatten
 
+if not 3 <= len(sys.argv) <= 4:
+    sys.exit(__doc__)
 mesh, out = sys.argv[1:3]
 size = int(sys.argv[3]) if len(sys.argv) > 3 else 0
 image = os.path.abspath(os.path.splitext(out)[0] + ".png")

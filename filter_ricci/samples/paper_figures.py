@@ -4,14 +4,14 @@
 
 The conventional flow above, the generalized one below: a checkerboard and the distortion on the surface (blue
 is 1, red the generalized flow's largest), the chart, and how often the distortion has each value. With
-pip install pymeshlab_ricci-*.whl matplotlib. TARGET is 'Flat everywhere', or Disk, Rectangle, ..."""
+pip install ricciflow-*.whl matplotlib. TARGET is 'Flat everywhere', or Disk, Rectangle, ..."""
 
 import sys
 
 import numpy
 from matplotlib.figure import Figure
 
-from pymeshlab_ricci import Refused, flatten
+from ricciflow import Refused, flatten
 
 SIZE = 500  # of the picture of a surface
 SQUARES = 40  # of the checkerboard, along a side of the texture
@@ -76,4 +76,6 @@ def main(mesh, picture, target="Flat everywhere"):
 
 
 if __name__ == "__main__":
+    if not 3 <= len(sys.argv) <= 4:
+        sys.exit(__doc__)
     main(*sys.argv[1:])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the plugin says of itself into the repository: the pages of the filters in the user
-manual, in the form of PyMeshLab's own, and the types of the Python package. What the results mean
-is taken the other way, from the manual's tables into the package.
+"""Writes what the library says of its filters into the repository: their pages in the user manual, in
+the form of PyMeshLab's own, and the types of the Python package. What the results mean is taken the
+other way, from the manual's tables into the package.
 
     PYTHONPATH=build/python build/venv/bin/python filter_ricci/scripts/document_filters.py [--check]
 
@@ -13,11 +13,11 @@ import pprint
 import re
 import sys
 
-from pymeshlab_ricci._filters import DESCRIPTIONS, plain
+from ricciflow._filters import DESCRIPTIONS, plain
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANUAL = os.path.join(os.path.dirname(HERE), "README.md")
-PACKAGE = os.path.join(os.path.dirname(HERE), "python", "pymeshlab_ricci")
+PACKAGE = os.path.join(os.path.dirname(HERE), "python", "ricciflow")
 LICENCE = "# SPDX-License-Identifier: GPL-3.0-or-later\n"
 MADE = "# Made by document_filters.py.\n"
 PYTHON_WIDTH = 96
@@ -124,7 +124,7 @@ def results_module(both):
 TYPES = {"bool": "bool", "int": "int", "float": "float", "vector": "Floats"}
 
 STUB = LICENCE + '''\
-"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
+"""UV-unwraps triangle meshes: conformal maps by the discrete Ricci flow."""
 ''' + MADE + '''
 import os
 from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
@@ -132,7 +132,6 @@ from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 import numpy
 import numpy.typing
 import pymeshlab
-from pymeshlab import Mesh as Mesh
 
 Floats = numpy.typing.NDArray[numpy.float64]
 Integers = numpy.typing.NDArray[numpy.int32]
@@ -142,15 +141,19 @@ class HasVerticesAndFaces(Protocol):
     vertices: Any
     faces: Any
 
-MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, Mesh, HasVerticesAndFaces,
+MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, pymeshlab.Mesh,
+                 HasVerticesAndFaces,
                  tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]
 
 __version__: str
 EUCLIDEAN: str
 HYPERBOLIC: str
 
-class Refused(pymeshlab.PyMeshLabException):
+class Refused(Exception):
     """The mesh is refused; the text says why. It is unchanged."""
+
+class RicciWarning(UserWarning):
+    """A doubt about a map that was made: what it is, and what to do."""
 
 '''
 
@@ -162,8 +165,7 @@ PARAMETRIZATION = '''class Layer(NamedTuple):
     edges: Integers
 
 class Parametrization:
-    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
-    textures."""
+    """A mesh and its texture coordinates. It can be pickled and copied."""
 
     vertices: Floats
     """(V, 3) float64"""
@@ -182,15 +184,40 @@ class Parametrization:
         """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
     @property
     def mesh_set(self) -> pymeshlab.MeshSet:
-        """holds the mesh, and the new layers if some were asked for"""
+        """PyMeshLab's MeshSet that holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
+    messages: list[str]
+    """doubts about the map; each is a RicciWarning, too"""
+    log: list[str]
+    """all lines that the run has written"""
     def indexed(self) -> tuple[Floats, numpy.typing.NDArray[numpy.intp]]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
-        trimesh GLB and glTF."""
+        """Writes the mesh with its texture coordinates, and with the texture that carry_texture
+        has drawn. What else was in the file that the mesh is from stays."""
+    def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes one of the layers to a PLY file."""
 
+'''
+
+
+HOST_STUB = LICENCE + '''\
+"""PyMeshLab as a host: both filters as methods of MeshSet."""
+''' + MADE + '''
+from typing import Any, Literal, Union
+
+import pymeshlab
+from pymeshlab import Mesh as Mesh
+
+from . import Refused as _Refused
+
+USES_PLUGIN: bool
+
+class Refused(_Refused, pymeshlab.PyMeshLabException):
+    """The mesh of a MeshSet is refused; the text says why."""
+
+class MeshSet(pymeshlab.MeshSet):
 '''
 
 
@@ -218,26 +245,22 @@ def stub_parameters(description, indent):
 
 
 def stub(both):
-    euclidean, hyperbolic = DESCRIPTIONS
     own = ("    mesh: Union[MeshLike, numpy.typing.ArrayLike],\n"
            "    faces: Union[numpy.typing.ArrayLike, None] = None,\n    *,\n"
            "    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,\n"
            "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    uv: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    selected_edges: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,\n"
            "    progress: Union[bool, Callable[[float, str], object], None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),
              "\nclass Uniformization(Parametrization):\n    disk: Complex\n"
              '    """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""\n',
-             attributes({**both[0], **both[1]}),
-             "\nclass MeshSet(pymeshlab.MeshSet):\n"]
-    for d in DESCRIPTIONS:
-        parts.append(f"    def {d['python_name']}(\n        self,\n        *,\n"
-                     f"{stub_parameters(d, ' ' * 8)}    ) -> dict[str, Any]:\n"
-                     f'        """MeshLab\'s filter \'{d["name"]}\' on the current mesh."""\n')
-    for name, d, kind, text in (
-            ("flatten", euclidean, "Flattening",
-             "Conformal map of a mesh into the Euclidean plane."),
-            ("uniformize", hyperbolic, "Uniformization",
+             attributes({**both[0], **both[1]})]
+    for name, d, kind, text in zip(
+            ("flatten", "uniformize"), DESCRIPTIONS, ("Flattening", "Uniformization"),
+            ("UV-unwraps a mesh: a conformal map into the plane.",
              "Hyperbolic metric of a mesh, in the Poincaré disk.")):
         parts.append(f"\ndef {name}(\n{own}{stub_parameters(d, '    ')}) -> {kind}:\n"
                      f'    """{text}\n\n')
@@ -245,6 +268,15 @@ def stub(both):
             text = f"{p['name']}: {plain(p['tooltip'])}"
             parts.append(wrapped(text, "        ", "    ", PYTHON_WIDTH) + "\n")
         parts.append('    """\n')
+    return "".join(parts)
+
+
+def host_stub():
+    parts = [HOST_STUB]
+    for d in DESCRIPTIONS:
+        parts.append(f"    def {d['python_name']}(\n        self,\n        *,\n"
+                     f"{stub_parameters(d, ' ' * 8)}    ) -> dict[str, Any]:\n"
+                     f'        """MeshLab\'s filter \'{d["name"]}\' on the current mesh."""\n')
     return "".join(parts)
 
 
@@ -259,7 +291,8 @@ def main():
     text = manual(read(MANUAL))
     both = results(text)
     made = {MANUAL: text, os.path.join(PACKAGE, "_results.py"): results_module(both),
-            os.path.join(PACKAGE, "__init__.pyi"): stub(both)}
+            os.path.join(PACKAGE, "__init__.pyi"): stub(both),
+            os.path.join(PACKAGE, "pymeshlab.pyi"): host_stub()}
     old = [path for path, content in made.items() if read(path) != content]
     if "--check" in sys.argv[1:]:
         for path in old:

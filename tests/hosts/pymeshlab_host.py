@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in PyMeshLab, for the tests."""
+"""PyMeshLab for the tests: the filters by the plugin, or, with RICCI_ROAD=arrays, by the library on the
+arrays of its meshes."""
 
 import os
+import sys
+import warnings
 
 import common
 
@@ -11,10 +14,19 @@ try:
 except ImportError as problem:
     common.skip(f"PyMeshLab cannot be imported here: {problem}")
 
+BY_ARRAYS = os.environ.get("RICCI_ROAD") == "arrays"
 _PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
-if not os.path.exists(_PLUGIN):
+if BY_ARRAYS:
+    sys.path.insert(0, os.path.join(common.BUILD, "python"))
+    if not os.path.isdir(sys.path[0]):
+        common.skip("the Python package is not built")
+    import ricciflow.pymeshlab
+    ricciflow.pymeshlab.USES_PLUGIN = False
+    warnings.simplefilter("ignore", ricciflow.RicciWarning)
+elif os.path.exists(_PLUGIN):
+    pymeshlab.load_plugin(_PLUGIN)
+else:
     common.skip("the plugin for PyMeshLab is not built")
-pymeshlab.load_plugin(_PLUGIN)
 
 # After any filter has failed, stock filters too, PyMeshLab 2025.7 writes into the log of that
 # MeshSet even when the MeshSet is gone: so every MeshSet lives as long as the program.
@@ -38,9 +50,13 @@ def mesh_set(mesh):
     return documents
 
 
+_folders = {}  # of a MeshSet from a file, where the plugin writes what has a relative name
+
+
 def load(path):
     documents = _new_set()
     documents.load_new_mesh(path)
+    _folders[id(documents)] = os.path.dirname(path)
     return documents
 
 
@@ -49,6 +65,12 @@ def select(documents, condition):
 
 
 def run(documents, our_filter=common, **values):
-    returned = documents.apply_filter(our_filter.PYTHON_NAME, **values)
+    if BY_ARRAYS:
+        for key in ("report", "carry_texture"):
+            if values.get(key):
+                values[key] = os.path.join(_folders.get(id(documents), ""), values[key])
+        returned = getattr(documents, our_filter.PYTHON_NAME)(**values)
+    else:
+        returned = documents.apply_filter(our_filter.PYTHON_NAME, **values)
     return {key: common.vector(value.tolist()) if isinstance(value, numpy.ndarray) else value
             for key, value in returned.items()}

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line of the Python package: nothing is lost and nothing is done twice.
-Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab; one test needs Dask."""
+Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has numpy; one test needs Dask, one PyMeshLab."""
 
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -17,9 +18,13 @@ import meshes
 import textures
 
 try:
-    import pymeshlab
+    import numpy  # noqa: F401  pylint: disable=unused-import
 except ImportError as problem:
-    common.skip(f"PyMeshLab cannot be imported here: {problem}")
+    common.skip(f"numpy cannot be imported here: {problem}")
+try:
+    import pymeshlab
+except ImportError:
+    pymeshlab = None
 try:
     from dask import distributed
 except ImportError:
@@ -38,6 +43,7 @@ class Batch(unittest.TestCase):
         self.meshes = os.path.join(folder.name, "meshes")
         self.out = os.path.join(folder.name, "out")
         self.hooks = os.path.join(folder.name, "hooks")
+        self.stems = {}  # of meshes, without which their files in OUT end
         os.makedirs(os.path.join(self.meshes, "more"))
 
     def write(self, name, mesh):
@@ -52,7 +58,7 @@ class Batch(unittest.TestCase):
     def start(self, *options):
         environment = {**os.environ, "PYTHONPATH": PACKAGE + os.pathsep + self.hooks}
         return subprocess.Popen(
-            [sys.executable, "-m", "pymeshlab_ricci", self.meshes, self.out, *options],
+            [sys.executable, "-m", "ricciflow", self.meshes, self.out, *options],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
     def start_cluster(self):
@@ -82,11 +88,13 @@ class Batch(unittest.TestCase):
                 if name.endswith(".json"):
                     path = os.path.join(place, name)
                     with open(path, encoding="utf-8") as source:
-                        found[os.path.relpath(path, self.out)[:-5]] = json.load(source)
+                        record = json.load(source)
+                    found[record["mesh"]] = record
+                    self.stems[record["mesh"]] = os.path.relpath(path, self.out)[:-5]
         return found
 
     def times(self):
-        return {mesh: os.stat(os.path.join(self.out, mesh + ".json")).st_mtime_ns
+        return {mesh: os.stat(os.path.join(self.out, self.stems[mesh] + ".json")).st_mtime_ns
                 for mesh in self.records()}
 
     def check_solved(self, names, genus=1):
@@ -95,7 +103,7 @@ class Batch(unittest.TestCase):
         for name in names:
             self.assertEqual(records[name]["state"], "solved", records[name])
             self.assertIn(genus, (records[name]["results"]["genus"], None))
-            mesh = meshes.read_ply(os.path.join(self.out, name + ".ply"))
+            mesh = meshes.read_ply(os.path.join(self.out, self.stems[name] + ".ply"))
             self.assertIsNotNone(mesh.wedges)
         with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
             rows = list(csv.DictReader(source))
@@ -129,7 +137,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(self.times(), before)
         missing = [names[3], names[4]]
         for name in missing:
-            os.remove(os.path.join(self.out, name + ".json"))
+            os.remove(os.path.join(self.out, self.stems[name] + ".json"))
         code, text = self.batch("--workers", "1")
         self.assertEqual(code, 0, text)
         self.assertIn("2 to run", text)
@@ -180,7 +188,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(code, 0, text)
         self.check_solved(names)
         for name in names:
-            place, file = os.path.split(os.path.join(self.out, name))
+            place, file = os.path.split(os.path.join(self.out, os.path.splitext(name)[0]))
             written = [file + ending for ending in (".json", ".ply", ".png", ".csv")]
             written += ["failures.txt", "more", "results.csv"] if place == self.out else []
             self.assertEqual(sorted(os.listdir(place)), sorted(written))
@@ -224,6 +232,55 @@ class Batch(unittest.TestCase):
         self.assertEqual(code, 0, text)
         self.assertIn("1 to run", text)
 
+    def test_names_of_results(self):
+        """Without the ending of the mesh, unless two would meet; a mesh whose name has changed takes
+        its older files along."""
+        self.write("alone.ply", meshes.hill(4))
+        self.write("pair.ply", meshes.hill(5))
+        self.write("pair.old.ply", meshes.hill(6))
+        os.makedirs(self.out)
+        with open(os.path.join(self.out, "other.json"), "w", encoding="utf-8") as other:
+            other.write('{"of": "a person"}')
+        self.write("other.ply", meshes.hill(4))
+
+        def results():
+            return {name for name in os.listdir(self.out) if name.endswith(".ply")}
+        self.assertEqual(self.batch()[0], 0)
+        self.assertEqual(results(), {"alone.ply", "pair.ply.ply", "pair.old.ply", "other.ply.ply"})
+        os.remove(os.path.join(self.meshes, "pair.old.ply"))
+        self.assertIn("3 meshes, 2 done before, 1 to run", self.batch()[1])
+        self.assertEqual(results(), {"alone.ply", "pair.ply", "pair.old.ply", "other.ply.ply"})
+        self.assertIn("0 to run", self.batch()[1])
+        with open(os.path.join(self.out, "other.json"), encoding="utf-8") as other:
+            self.assertEqual(json.load(other), {"of": "a person"})
+
+    def test_what_came_out(self):
+        """One sentence, all results if they are asked for, and doubts: on standard error and in the
+        table of a folder."""
+        self.write("hill.ply", meshes.hill())
+        path, out = os.path.join(self.meshes, "hill.ply"), self.out + ".ply"
+
+        def run(mesh, target, *options):
+            done = subprocess.run([sys.executable, "-m", "ricciflow", mesh, target, *options],
+                                  capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": PACKAGE})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout, done.stderr
+        said = rf"^1 chart, \d\d % filled, no flips, \d+\.\d s -> {re.escape(out)}\n"
+        printed, errors = run(path, out)
+        self.assertRegex(printed, said + "$")
+        self.assertEqual(errors, "")
+        self.assertEqual(run(path, out, "--quiet"), ("", ""))
+        printed, errors = run(path, out, "--verbose", "--target-curvature", "Disk")
+        self.assertRegex(printed, said + "(?s:.*)charts = 1\n")
+        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        _, errors = run(self.meshes, self.out, "--target-curvature", "Disk")
+        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
+            row, = csv.DictReader(source)
+        self.assertIn("doubtful", row["messages"])
+
+    @unittest.skipIf(pymeshlab is None, "PyMeshLab, which reads most of them, is not installed")
     def test_every_format_and_what_is_skipped(self):
         for ending in ("3ds", "dae", "obj", "off", "ply", "stl", "wrl", "x3d"):
             documents = pymeshlab.MeshSet()
@@ -272,13 +329,13 @@ class Batch(unittest.TestCase):
                 ("nothing", "out", (), 2, "There is no file or folder"),
                 (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is no whole number"),
                 (self.meshes, path, (), 1, "hill.ply: File exists"),
-                (path, "out.stl", (), 2, "OUT must end in .ply or .obj"),
+                (path, "out.stl", (), 2, "OUT must end in .obj or .ply"),
                 (path, os.path.join(path, "out.ply"), (), 1, "hill.ply"),
                 (path, "out.ply", ("--target-curvature", "Disc"), 2, "did you mean 'Disk'"),
                 (path, "out.ply", ("--cone-distortion", "-1"), 1, "failed: .* cannot be used")):
             with self.subTest(out=out, options=options):
                 done = subprocess.run(
-                    [sys.executable, "-m", "pymeshlab_ricci", mesh, out, *options],
+                    [sys.executable, "-m", "ricciflow", mesh, out, *options],
                     capture_output=True, text=True, env={**os.environ, "PYTHONPATH": PACKAGE})
                 self.assertEqual(done.returncode, code, done.stderr)
                 self.assertRegex(done.stderr, pattern)
@@ -293,7 +350,7 @@ class Batch(unittest.TestCase):
                           (os.path.join(self.meshes, "hill.ply"), os.path.join(self.out, "a.ply"))):
             done = subprocess.run(
                 [sys.executable, "-c", "import os, sys\n"
-                 "from pymeshlab_ricci.__main__ import main\n"
+                 "from ricciflow.__main__ import main\n"
                  "os.access = lambda place, mode: mode != os.W_OK\n"
                  "sys.exit(main(sys.argv[1:]))", mesh, out],
                 capture_output=True, text=True, env={**os.environ, "PYTHONPATH": PACKAGE})

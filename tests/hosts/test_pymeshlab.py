@@ -20,7 +20,7 @@ import xml.etree.ElementTree
 
 import common
 import meshes
-from pymeshlab_host import numpy, pymeshlab, load, mesh_set, run, select
+from pymeshlab_host import BY_ARRAYS, numpy, pymeshlab, load, mesh_set, run, select
 
 
 def loaded(mesh):
@@ -181,8 +181,9 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual((seen.max(axis=0) - seen.min(axis=0)).max() / size, 1.0, delta=1e-3)
         self.assertGreater(seen[:, 0].min(), mesh[:, 0].max())
         self.assertLess(seen[:, 0].min(), mesh[:, 0].max() + 0.2 * size)
-        self.assertFalse(flat.has_vertex_color())
+        self.assertEqual(flat.has_vertex_color(), BY_ARRAYS)  # all that programs make are white
 
+    @unittest.skipIf(BY_ARRAYS, "PyMeshLab gives no program the means to remove colours")
     def test_colours_of_an_earlier_run_go(self):
         documents = mesh_set(meshes.torus())
         self.check(documents, colorize=True, flat_layer=True)
@@ -266,6 +267,7 @@ class Results(unittest.TestCase):
             self.assertTrue(numpy.array_equal(*(d.current_mesh().wedge_tex_coord_matrix()
                                                 for d in documents)))
 
+    @unittest.skipIf(BY_ARRAYS, "PyMeshLab gives no program the means, as a warning says")
     def test_flat_layer_has_the_textures(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "torus.ply")
@@ -435,11 +437,12 @@ class Report(unittest.TestCase):
         os.mkdir(self.path("folder.html"))
         before = state(self.documents.current_mesh())
         present = sorted(os.listdir(self.folder.name))
-        for name, words in (("nowhere/page.html", "cannot be written.*choose another place"),
+        for name, words in (("nowhere/page.html", "cannot be written.*(choose another place|no folder)"),
                             ("folder.html", "is a folder"),
                             ("page.pdf", "must end in .html"), ("page", "must end in .html")):
             with self.subTest(name):
-                with self.assertRaisesRegex(pymeshlab.PyMeshLabException, f"(?s){words}"):
+                with self.assertRaisesRegex((pymeshlab.PyMeshLabException, FileNotFoundError),
+                                            f"(?s){words}"):
                     run(self.documents, report=name)
                 self.assertTrue(same(before, state(self.documents.current_mesh())))
                 self.assertEqual(sorted(os.listdir(self.folder.name)), present)
@@ -542,7 +545,7 @@ class Hyperbolic(unittest.TestCase):
         self.assertTrue(returned["converged"])
         self.assertLess(returned["max_curvature_error"], 1e-8)
         self.assertLess(returned["relation_error"], 1e-8)
-        disk = 2 * documents.mesh(0).wedge_tex_coord_matrix() - 1
+        disk = 2 * documents.current_mesh().wedge_tex_coord_matrix() - 1
         self.assertLess(numpy.hypot(disk[:, 0], disk[:, 1]).max(), 1.0)
         return returned
 
@@ -820,12 +823,14 @@ class BadInput(unittest.TestCase):
         before = state(documents.current_mesh())
         with self.assertRaisesRegex(pymeshlab.PyMeshLabException, f"(?is)(?:{words}).*\\.$") as caught:
             run(documents, **values)
-        self.assertIn("Details: ", str(caught.exception))
+        self.assertEqual("Details: " in str(caught.exception), not BY_ARRAYS)
         self.assertTrue(same(before, state(documents.current_mesh())))
         self.assertEqual(documents.mesh_number(), 1)
 
     def test_no_mesh(self):
-        with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "at least one mesh"):
+        error, words = ((ValueError, "holds no mesh") if BY_ARRAYS else
+                        (pymeshlab.PyMeshLabException, "at least one mesh"))
+        with self.assertRaisesRegex(error, words):
             run(mesh_set(None))
 
     def test_no_faces(self):
@@ -833,7 +838,7 @@ class BadInput(unittest.TestCase):
         empty.set_selection_all()
         empty.meshing_remove_selected_vertices_and_faces()
         for documents in (mesh_set(meshes.point_cloud()), empty):
-            with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "Any Faces"):
+            with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "Any Faces|a point cloud"):
                 run(documents)
 
     def test_degenerate(self):
@@ -911,10 +916,11 @@ class BadInput(unittest.TestCase):
         for values in ({"target_curvature": 7}, {"target_curvature": -1}, {"method": "Nonsense"}):
             documents = mesh_set(meshes.torus())
             before = state(documents.current_mesh())
-            with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)"):
+            with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)|is no choice"):
                 run(documents, **values)
             self.assertTrue(same(before, state(documents.current_mesh())))
 
+    @unittest.skipIf(BY_ARRAYS, "the sentences do not go through the host")
     def test_sentences_survive_the_host(self):
         """The host turns messages into the local 8-bit encoding, which may be plain ASCII."""
         # Below a folder whose name such a locale cannot express, Qt searches for its own folder without end.
@@ -972,6 +978,7 @@ class Faults(unittest.TestCase):
                             outcome(documents) == expected])
         return answers
 
+    @unittest.skipIf(BY_ARRAYS, "Python and the host have errors of their own where the library has none")
     def test_short_of_memory(self):
         answers = in_a_process("Faults.short_of_memory()")
         self.assertEqual((answers[0][0] == "solved", answers[-1][0]), (False, "solved"))
@@ -1032,6 +1039,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(found[:3], ["0,5", expected, report])
         self.assertIn("The value -0.5 of epsilon", found[3])
 
+    @unittest.skipIf(BY_ARRAYS, "PyMeshLab has one attribute of a name")
     def test_attributes_of_the_same_name(self):
         straight = mesh_set(meshes.torus())
         run(straight, cone_distortion=1.0)
@@ -1148,7 +1156,8 @@ class OneProcess(unittest.TestCase):
             documents.set_current_mesh(layer)
             others = [state(documents.mesh(i)) for i in range(3) if i != layer]
             self.same_as_alone(documents, name)
-            self.assertEqual(documents.current_mesh_id(), layer)
+            if not BY_ARRAYS or name != "refined torus":  # a new layer
+                self.assertEqual(documents.current_mesh_id(), layer)
             for before, i in zip(others, [i for i in range(3) if i != layer]):
                 self.assertTrue(same(before, state(documents.mesh(i))))
 

@@ -163,7 +163,7 @@ class Readme(unittest.TestCase):
                 (os.path.join("vcg_ext", "ricci", "CMakeLists.txt"), r"^project\(ricci VERSION ([\d.]+)")):
             self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
         for name in ("README.md", os.path.join("filter_ricci", "README.md")):
-            self.assertEqual(set(re.findall(r"pymeshlab_ricci-(.*?)-", read(name))), {version}, name)
+            self.assertEqual(set(re.findall(r"ricciflow-(.*?)-", read(name))), {version}, name)
 
     def test_script(self):
         """The script that users start from has every parameter, with its type."""

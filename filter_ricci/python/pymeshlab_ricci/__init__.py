@@ -1,29 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab.
+"""The former name of ricciflow, for this version only."""
 
-    from pymeshlab_ricci import flatten, uniformize
+import warnings
 
-    result = flatten("scan.ply")                  # or (vertices, faces), or a MeshSet
-    result.uv                                     # texture coordinates: faces x corners x 2
-    result.charts, result.qc_area_mean            # what came out of it
-    result.save("scan.obj")
-
-Importing this module also makes both filters methods of pymeshlab.MeshSet. On the command line:
-python -m pymeshlab_ricci IN OUT.
-"""
-
-from importlib.metadata import PackageNotFoundError, version
-
-from pymeshlab import Mesh, MeshSet
-
-from ._filters import EUCLIDEAN, HYPERBOLIC
-from ._parametrize import (Flattening, Layer, Parametrization, Refused, Uniformization, flatten,
-                           uniformize)
+from ricciflow import *  # noqa: F401,F403
+from ricciflow import __all__, __version__  # noqa: F401
 
 try:
-    __version__ = version("pymeshlab-ricci")
-except PackageNotFoundError:
-    __version__ = "unknown"
+    from ricciflow.pymeshlab import Mesh, MeshSet  # noqa: F401
+    __all__ = [*__all__, "Mesh", "MeshSet"]
+except ImportError:  # PyMeshLab is not installed
+    pass
 
-__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Layer", "Mesh", "MeshSet", "Parametrization",
-           "Refused", "Uniformization", "flatten", "uniformize"]
+warnings.warn("pymeshlab_ricci is called ricciflow now: import ricciflow, and ricciflow.pymeshlab "
+              "for the methods of MeshSet. The next version has the new name only.",
+              DeprecationWarning, stacklevel=2)

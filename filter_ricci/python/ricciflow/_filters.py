@@ -1,31 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The filters of the plugin as methods of MeshSet, described in the plugin's own words."""
+"""The filters and their parameters in the library's own words, and what a caller gives for them."""
 
-import ctypes
-import difflib
 import html
 import inspect
-import json
 import operator
 import os
 import re
 
-import pymeshlab
-
-from ._plugin import LIBRARY, PLUGIN, silent, watched
+from ._library import DESCRIPTIONS
 
 TYPES = {"enum": str, "bool": bool, "int": int, "float": float, "file": str}
-
-
-def _described():
-    """Both filters, each a dictionary with name, python_name, info and parameters."""
-    describe = LIBRARY.filter_ricci_description
-    describe.restype = ctypes.c_char_p
-    described = json.loads(describe().decode())
-    for parameter in (p for description in described for p in description["parameters"]):
-        if parameter["type"] == "float":  # single precision in the host
-            parameter["default"] = float(f"{parameter['default']:.7g}")
-    return described
+EUCLIDEAN, HYPERBOLIC = (description["python_name"] for description in DESCRIPTIONS)
 
 
 def plain(text):
@@ -34,9 +19,22 @@ def plain(text):
     return re.sub(r"\s+([:,;.])", r"\1", re.sub(r"\s+", " ", text)).strip()
 
 
+class Signature(inspect.Signature):
+    """One that help() shows in a short line; the parameters are listed below it, with their texts."""
+
+    def __str__(self):
+        own = [parameter for parameter in self.parameters.values()
+               if parameter.kind is not inspect.Parameter.KEYWORD_ONLY]
+        others = inspect.Parameter("parameters", inspect.Parameter.VAR_KEYWORD)
+        return str(inspect.Signature([*own, others]))
+
+    def format(self, **_):
+        return str(self)
+
+
 def signature(description, *before):
     """Of a function that takes the parameters of the filter by their names."""
-    return inspect.Signature([*before, *(
+    return Signature([*before, *(
         inspect.Parameter(p["name"], inspect.Parameter.KEYWORD_ONLY, default=p["default"],
                           annotation=TYPES[p["type"]]) for p in description["parameters"])])
 
@@ -53,18 +51,9 @@ def documentation(description):
     return "\n".join(lines)
 
 
-def apply(mesh_set, name, **parameters):
-    """apply_filter. After a failure PyMeshLab 2025.7 keeps a pointer to the log of the MeshSet, and
-    later loads write there even if the MeshSet is gone. A filter that succeeds clears it."""
-    try:
-        return mesh_set.apply_filter(name, **parameters)
-    except Exception:
-        pymeshlab.MeshSet().create_cube()
-        raise
-
-
 def nearest(text, names):
     """A question that suggests one of the names, or all of them where none is near."""
+    import difflib
     near = difflib.get_close_matches(text.lower(), [name.lower() for name in names], n=1)
     for name in names:
         if [name.lower()] == near:
@@ -100,7 +89,7 @@ _READ = {"bool": operator.index, "int": operator.index, "float": _number, "file"
 
 
 def checked(function, description, given):
-    """The parameters as the host takes them. A slip of the caller is a TypeError or a ValueError."""
+    """The parameters as a host takes them. A slip of the caller is a TypeError or a ValueError."""
     known = {p["name"]: p for p in description["parameters"]}
     values = {}
     for name, value in given.items():
@@ -119,29 +108,3 @@ def checked(function, description, given):
         except ValueError as problem:
             raise ValueError(f"{name}: {problem}") from None
     return values
-
-
-def _bind(description):
-    name = description["python_name"]
-
-    def method(self, **parameters):
-        parameters = checked(name, description, parameters)
-        return watched(lambda: apply(self, name, **parameters), silent)
-
-    this = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
-    method.__name__ = name
-    method.__qualname__ = f"MeshSet.{name}"
-    method.__signature__ = signature(description, this)
-    method.__doc__ = (f"MeshLab's filter '{description['name']}' on the current mesh.\n\n"
-                      f"{plain(description['info'])}\n\nReturns a dictionary with the results.\n\n"
-                      f"{documentation(description)}\n")
-    setattr(pymeshlab.MeshSet, name, method)
-
-
-# A program may have loaded a plugin of these names by itself.
-DESCRIPTIONS = _described()
-if DESCRIPTIONS[0]["python_name"] not in pymeshlab.filter_list():
-    pymeshlab.load_plugin(PLUGIN)
-EUCLIDEAN, HYPERBOLIC = (description["python_name"] for description in DESCRIPTIONS)
-for _description in DESCRIPTIONS:
-    _bind(_description)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
+"""UV-unwraps triangle meshes: conformal maps by the discrete Ricci flow."""
 # Made by document_filters.py.
 
 import os
@@ -8,7 +8,6 @@ from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 import numpy
 import numpy.typing
 import pymeshlab
-from pymeshlab import Mesh as Mesh
 
 Floats = numpy.typing.NDArray[numpy.float64]
 Integers = numpy.typing.NDArray[numpy.int32]
@@ -18,15 +17,19 @@ class HasVerticesAndFaces(Protocol):
     vertices: Any
     faces: Any
 
-MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, Mesh, HasVerticesAndFaces,
+MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, pymeshlab.Mesh,
+                 HasVerticesAndFaces,
                  tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]
 
 __version__: str
 EUCLIDEAN: str
 HYPERBOLIC: str
 
-class Refused(pymeshlab.PyMeshLabException):
+class Refused(Exception):
     """The mesh is refused; the text says why. It is unchanged."""
+
+class RicciWarning(UserWarning):
+    """A doubt about a map that was made: what it is, and what to do."""
 
 class Layer(NamedTuple):
     """A new layer: vertices (V, 3) float64, and what joins them."""
@@ -36,8 +39,7 @@ class Layer(NamedTuple):
     edges: Integers
 
 class Parametrization:
-    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
-    textures."""
+    """A mesh and its texture coordinates. It can be pickled and copied."""
 
     vertices: Floats
     """(V, 3) float64"""
@@ -56,14 +58,21 @@ class Parametrization:
         """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
     @property
     def mesh_set(self) -> pymeshlab.MeshSet:
-        """holds the mesh, and the new layers if some were asked for"""
+        """PyMeshLab's MeshSet that holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
+    messages: list[str]
+    """doubts about the map; each is a RicciWarning, too"""
+    log: list[str]
+    """all lines that the run has written"""
     def indexed(self) -> tuple[Floats, numpy.typing.NDArray[numpy.intp]]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
-        trimesh GLB and glTF."""
+        """Writes the mesh with its texture coordinates, and with the texture that carry_texture
+        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
+        too."""
+    def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes one of the layers to a PLY file."""
 
 class Flattening(Parametrization):
     converged: bool
@@ -407,130 +416,15 @@ class Uniformization(Parametrization):
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
-class MeshSet(pymeshlab.MeshSet):
-    def compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(
-        self,
-        *,
-        target_curvature: Union[int, Literal[
-            'Automatic',
-            'Flat everywhere',
-            'Disk',
-            'Rectangle',
-            'Cones at selected vertices',
-            'From vertex quality',
-            'Placed cones',
-        ]] = 'Automatic',
-        free_boundary: bool = True,
-        cone_distortion: float = 0.0,
-        seams: Union[int, Literal[
-            'Shortest',
-            'Existing texture seams',
-            'Selected edges',
-            'Border of selected faces',
-        ]] = 'Shortest',
-        output_triangulation: Union[int, Literal[
-            'Keep the mesh',
-            'Common refinement',
-        ]] = 'Keep the mesh',
-        chart_margin: float = 0.0,
-        colorize: bool = False,
-        flat_layer: bool = False,
-        holes: Union[int, Literal[
-            'Boundaries',
-            'Capped',
-            'Short ones capped',
-        ]] = 'Short ones capped',
-        seam_hiding: float = 0.0,
-        cone_count: int = 0,
-        cone_rounding: Union[int, Literal[
-            'Free',
-            'Multiples of pi/2',
-        ]] = 'Free',
-        method: Union[int, Literal[
-            'Intrinsic flips',
-            'Fixed triangles',
-            'Edge swaps',
-            'Thurston',
-        ]] = 'Intrinsic flips',
-        finish: Union[int, Literal[
-            'None',
-            'Repair',
-            'Least distortion',
-            'Least stretch',
-        ]] = 'Least distortion',
-        charts: Union[int, Literal[
-            'As the flow has them',
-            'Without overlap',
-            'Without overlap, cut for room',
-            'As they are, only packed',
-        ]] = 'Without overlap, cut for room',
- 'As they are, only packed',
-        normalize_uv: bool = True,
-        sphere_layer: bool = False,
-        join_vertices: Union[int, Literal[
-            'Automatic',
-            'Never',
-            'Always',
-        ]] = 'Automatic',
-        carry_texture: str = '',
-        texture_size: int = 2048,
-        report: str = '',
-        epsilon: float = 1e-08,
-        time_limit: float = 0.0,
-    ) -> dict[str, Any]:
-        """MeshLab's filter 'Generalized Ricci Flow (Euclidean)' on the current mesh."""
-    def compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge(
-        self,
-        *,
-        target_curvature: Union[int, Literal[
-            'Hyperbolic metric',
-            'Cones at selected vertices',
-            'From vertex quality',
-        ]] = 'Hyperbolic metric',
-        cone_angle: float = 180.0,
-        output_triangulation: Union[int, Literal[
-            'Keep the mesh',
-            'Common refinement',
-        ]] = 'Keep the mesh',
-        colorize: bool = False,
-        flat_layer: bool = False,
-        universal_cover: int = 0,
-        generator_axes: bool = False,
-        canonical_polygon: bool = False,
-        seams: Union[int, Literal[
-            'Shortest',
-            'Existing texture seams',
-            'Selected edges',
-            'Border of selected faces',
-        ]] = 'Shortest',
-        free_boundary: bool = False,
-        method: Union[int, Literal[
-            'Intrinsic flips',
-            'Fixed triangles',
-        ]] = 'Intrinsic flips',
-        finish: Union[int, Literal[
-            'None',
-            'Repair',
-        ]] = 'Repair',
-        join_vertices: Union[int, Literal[
-            'Automatic',
-            'Never',
-            'Always',
-        ]] = 'Automatic',
-        carry_texture: str = '',
-        texture_size: int = 2048,
-        report: str = '',
-        epsilon: float = 1e-08,
-        time_limit: float = 0.0,
-    ) -> dict[str, Any]:
-        """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
-
 def flatten(
     mesh: Union[MeshLike, numpy.typing.ArrayLike],
     faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
     selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    uv: Union[numpy.typing.ArrayLike, None] = None,
+    selected_edges: Union[numpy.typing.ArrayLike, None] = None,
+    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Automatic',
@@ -583,23 +477,16 @@ def flatten(
         'As the flow has them',
         'Without overlap',
         'Without overlap, cut for room',
-        'As they are, only packed',
     ]] = 'Without overlap, cut for room',
- 'As they are, only packed',
     normalize_uv: bool = True,
     sphere_layer: bool = False,
-    join_vertices: Union[int, Literal[
-        'Automatic',
-        'Never',
-        'Always',
-    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
     epsilon: float = 1e-08,
     time_limit: float = 0.0,
 ) -> Flattening:
-    """Conformal map of a mesh into the Euclidean plane.
+    """UV-unwraps a mesh: a conformal map into the plane.
 
     target_curvature: What the flow is asked to reach. Automatic suits most meshes: it places
         cones where areas would change much.
@@ -632,16 +519,11 @@ def flatten(
         seams, whose sides then differ. Only for the method 'Intrinsic flips'.
     charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
         shortest lines. Cut for room: with Automatic, also a chart that fills little of the
-        square, where the room is worth the seam. As they are: those of the texture coordinates
-        that the mesh has keep their shape, and are only turned, scaled by one factor and
-        packed.
+        square, where the room is worth the seam.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
         closed surface of genus 0.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
@@ -660,6 +542,9 @@ def uniformize(
     *,
     selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    uv: Union[numpy.typing.ArrayLike, None] = None,
+    selected_edges: Union[numpy.typing.ArrayLike, None] = None,
+    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Hyperbolic metric',
@@ -691,11 +576,6 @@ def uniformize(
         'None',
         'Repair',
     ]] = 'Repair',
-    join_vertices: Union[int, Literal[
-        'Automatic',
-        'Never',
-        'Always',
-    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
@@ -726,9 +606,6 @@ def uniformize(
     method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
         with an error; the mesh is never changed.
     finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old

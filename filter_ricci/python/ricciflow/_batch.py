@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs jobs, each in a process of its own, here or on a cluster, and keeps their records.
 
-For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, files, seconds)
-and a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless
-mesh, parameters or plugin differ: a run that was interrupted goes on where it stopped. What an
-earlier run wrote for a mesh goes before it runs again."""
+For meshes/a/b.off the folder OUT then holds a/b.ply and its record a/b.json (state, results or
+reason, messages, files, seconds), or a/b.off.ply and a/b.off.json where the short names would meet
+another mesh. The record is written last. A mesh whose record is there is not run again unless mesh,
+parameters or library differ: a run that was interrupted goes on where it stopped. What an earlier run
+wrote for a mesh is removed before it runs again."""
 
 import collections
 import concurrent.futures
@@ -13,18 +14,15 @@ import csv
 import hashlib
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
 
-from ._plugin import PLUGIN
+from ._library import PATH as LIBRARY
+from ._loading import mesh_endings
 
-# Of the formats that PyMeshLab loads, those that hold faces.
-ENDINGS = tuple(".3ds .3mf .asc .bre .ctm .dae .fbx .glb .gltf .obj .off .ply .ptx .qobj .stl .vmi .wrl "
-                ".x3d .x3dv".split())
 ANSWERED = ("solved", "refused")
 FINAL = (*ANSWERED, "unreadable")  # states that a second run would only repeat
 FAILED = ("crashed", "timeout")
@@ -33,7 +31,7 @@ FAILED = ("crashed", "timeout")
 def find_meshes(folder):
     """Paths below the folder, relative to it, in order; and of the other files, how many have which
     ending. Files that a run has written there count as neither."""
-    found, others = [], collections.Counter()
+    found, others, endings = [], collections.Counter(), mesh_endings()
     for place, _, names in os.walk(folder):
         written = {"results.csv", "failures.txt"}
         for name in names:
@@ -42,7 +40,7 @@ def find_meshes(folder):
                 written.update(record["files"], [name])
         for name in set(names) - written:
             ending = os.path.splitext(name)[1].lower()
-            if ending in ENDINGS:
+            if ending in endings:
                 found.append(os.path.relpath(os.path.join(place, name), folder))
             else:
                 others[ending or "without an ending"] += 1
@@ -51,8 +49,8 @@ def find_meshes(folder):
 
 def fingerprint(*settings):
     """What the results depend on besides their meshes."""
-    with open(PLUGIN, "rb") as plugin:
-        digest = hashlib.sha256(plugin.read())
+    with open(LIBRARY, "rb") as library:
+        digest = hashlib.sha256(library.read())
     digest.update(json.dumps(settings, sort_keys=True).encode())
     return digest.hexdigest()[:16]
 
@@ -63,8 +61,28 @@ def mark_of(mesh, common):
     return f"{common}-{state.st_size}-{state.st_mtime_ns}"
 
 
-def record_path(out, name):
-    return os.path.join(out, name + ".json")
+def stems(names, source, out, ending):
+    """For each mesh the name that its files in OUT begin with: its own without the ending, or the whole
+    of it where a result would replace it, or another mesh has a name that begins so, or a file
+    that is no record of ours is in the place of one."""
+    taken = collections.Counter()
+    for name in map(os.path.normcase, names):
+        folder, file = os.path.split(name)
+        parts = file.split(".")
+        taken.update(os.path.join(folder, ".".join(parts[:k])) for k in range(1, len(parts) + 1))
+    found = {}
+    for name in names:
+        short = os.path.splitext(name)[0]
+        record = record_path(out, short)
+        meets = (taken[os.path.normcase(short)] > 1 or
+                 os.path.join(out, short + ending) == os.path.join(source, name) or
+                 os.path.exists(record) and "state" not in read_record(record))
+        found[name] = name if meets else short
+    return found
+
+
+def record_path(out, stem):
+    return os.path.join(out, stem + ".json")
 
 
 def read_record(path):
@@ -84,14 +102,25 @@ def write_record(path, record):
     os.replace(partial, path)
 
 
-def clear(job):
-    """Removes what an earlier run wrote under this mesh's name, not a texture that others show too.
-    The record goes first: files without some of theirs must not pass for a result."""
-    folder, name = os.path.split(job["record"].removesuffix("json"))
-    files = read_record(job["record"]).get("files", ())
+def clear(path):
+    """Removes a record and what the run wrote under the mesh's name, not a texture that others show
+    too. The record goes first: files without some of theirs must not pass for a result."""
+    folder, name = os.path.split(path.removesuffix("json"))
+    files = read_record(path).get("files", ())
     for file in (name + "json", *(file for file in files if file.startswith(name))):
         with contextlib.suppress(OSError):
             os.remove(os.path.join(folder, file))
+
+
+def remove_parts(target):
+    """What a process that was ended has left: a mesh without its record, and the names under which
+    files are written before they get their own."""
+    folder, name = os.path.split(target)
+    hidden = f".{os.path.splitext(name)[0]}."
+    with contextlib.suppress(OSError):
+        for file in os.listdir(folder):
+            if file == name or file.startswith(hidden):
+                os.remove(os.path.join(folder, file))
 
 
 def in_words(problem):
@@ -100,15 +129,10 @@ def in_words(problem):
     return f"{problem.filename}: {problem.strerror}" if named else str(problem)
 
 
-def is_done(record, mark, retry):
-    if record.get("fingerprint") != mark:
+def is_done(record, name, mark, retry):
+    if (record.get("mesh"), record.get("fingerprint")) != (name, mark):
         return False
     return record.get("state") in (FINAL if retry else FINAL + FAILED)
-
-
-def partial_folder(target, pid):
-    """Where a process writes what it then moves to its place."""
-    return os.path.join(os.path.dirname(os.path.abspath(target)), f".part{pid}")
 
 
 class Processes:
@@ -147,9 +171,10 @@ def run_one(job, processes=None):
     started = time.monotonic()
     record = {"mesh": job["name"], "fingerprint": job["fingerprint"]}
     processes = processes or Processes()
-    if job["record"]:
-        clear(job)
-    process = processes.start([sys.executable, "-m", "pymeshlab_ricci._worker", json.dumps(job)])
+    for path in job["former"]:
+        if read_record(path).get("mesh") == job["name"]:
+            clear(path)
+    process = processes.start([sys.executable, "-m", "ricciflow._worker", json.dumps(job)])
     try:
         printed, errors = process.communicate(timeout=job["timeout"])
         try:
@@ -160,12 +185,10 @@ def run_one(job, processes=None):
         record.update(state="timeout", reason=f"no result after {job['timeout']:g} s")
     finally:
         processes.end(process)
-        shutil.rmtree(partial_folder(job["target"], process.pid), ignore_errors=True)
     record["seconds"] = round(time.monotonic() - started, 3)
     if job["record"] and not processes.stopped:
         if record["state"] != "solved":
-            with contextlib.suppress(OSError):  # of a process that ended after it was written
-                os.remove(job["target"])
+            remove_parts(job["target"])
         write_record(job["record"], record)
     return record
 
@@ -227,16 +250,18 @@ def by_dask(scheduler, workers):
 
 
 def summarize(out, names):
-    """Rewrites results.csv and failures.txt from the records. The number of failures."""
-    records = [{"mesh": name, "state": "missing", **read_record(record_path(out, name))}
-               for name in names]
+    """Rewrites results.csv and failures.txt from the records of the meshes, whose stems are given. The
+    number of failures."""
+    records = [{"mesh": name, "state": "missing", **read_record(record_path(out, stem))}
+               for name, stem in names.items()]
     keys = sorted({key for record in records for key in record.get("results", {})})
     with open(os.path.join(out, "results.csv"), "w", encoding="utf-8", newline="") as target:
         table = csv.writer(target)
-        table.writerow(["mesh", "state", "seconds", *keys])
+        table.writerow(["mesh", "state", "seconds", "messages", *keys])
         for record in records:
             results = record.get("results", {})
             table.writerow([record["mesh"], record["state"], record.get("seconds", ""),
+                            " ".join(record.get("messages", ())),
                             *(results.get(key, "") for key in keys)])
     with open(os.path.join(out, "failures.txt"), "w", encoding="utf-8") as target:
         for record in records:

@@ -1,0 +1,604 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stanford PLY, ascii and binary. Written again, every element and property stays; texcoord is of corners.
+
+MeshLab, whose property it is, reads it of triangles only: larger polygons are written as triangles.
+"""
+
+import struct
+from itertools import chain
+
+import numpy as np
+
+from . import _pictures
+from ._shared import FileError, MeshFile, beside, copy_beside, counted, mixed, relative, rewritten, write_file
+from ._text import numbers, whole, words_of_lines
+
+_TYPES = {'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4',
+          'float': 'f4', 'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2',
+          'int32': 'i4', 'uint32': 'u4', 'float32': 'f4', 'float64': 'f8'}
+_INDICES = ('vertex_indices', 'vertex_index')
+_COORDINATES = (('s', 't'), ('u', 'v'), ('texture_u', 'texture_v'), ('texture_s', 'texture_t'))
+
+
+class _Element:
+    """One element: its rows lie in `data` from `begin` to `end`; columns are read from there."""
+
+    def __init__(self, name, count):
+        self.name, self.count = name, count
+        self.types = {}  # by property: (type, type of the count of a list or None)
+        self.begin = self.end = 0
+        self.columns = {}  # by property: (n,) values, or (counts (n,), all values one after another)
+        self.rows = None  # (n + 1,) where each row begins, or None: all have the same length
+
+    def row_begins(self):
+        """(n + 1,) bytes of `data`."""
+        if self.rows is None:
+            return np.linspace(self.begin, self.end, self.count + 1).astype(np.int64)
+        return self.rows
+
+
+class PlyFile(MeshFile):
+    """A PLY, which has one part."""
+
+    def __init__(self, path, data=None):
+        super().__init__(path)
+        self._data = self.path.read_bytes() if data is None else data
+        self._read_header()
+        at = self._body
+        for element in self._elements:
+            element.begin = at
+            if element.types:
+                (self._read_text if self._order is None else self._read_binary)(element)
+            else:
+                element.end = at
+            at = element.end
+        self._by_name = {e.name: e for e in self._elements}
+        if 'face' not in self._by_name and 'tristrips' in self._by_name:
+            self._expand_strips(self._by_name['tristrips'])
+            return
+        self._read_mesh()
+
+    # Reading
+
+    def _fail(self, what):
+        raise FileError(f'{self.path.name}: {what}')
+
+    def _read_header(self):
+        stop = self._data.find(b'end_header')
+        line_end = self._data.find(b'\n', stop)
+        if line_end < 0:
+            line_end = self._data.find(b'\r', stop)
+        if not self._data.startswith(b'ply') or stop < 0 or line_end < 0 or stop > 1 << 20:
+            self._fail('no PLY file: the header is missing or has no end')
+        self._body = line_end + 1
+        self._header = self._data[:self._body].decode('latin1').splitlines()
+        self._elements, self._order, known = [], '', False
+        for number, line in enumerate(self._header):
+            words = line.split()
+            try:
+                if words[:1] == ['format']:
+                    self._order = {'ascii': None, 'binary_little_endian': '<', 'binary_big_endian': '>'}[
+                        words[1]]
+                    known = True
+                elif words[:1] == ['element']:
+                    self._elements.append(_Element(words[1], int(words[2])))
+                    if self._elements[-1].count < 0:
+                        raise ValueError
+                elif words[:2] == ['property', 'list']:
+                    self._elements[-1].types[words[4]] = _TYPES[words[3]], _TYPES[words[2]]
+                    if _TYPES[words[2]][0] == 'f':
+                        raise ValueError
+                elif words[:1] == ['property']:
+                    self._elements[-1].types[words[2]] = _TYPES[words[1]], None
+            except (KeyError, IndexError, ValueError):
+                self._fail(f'line {number + 1} of the header is not understood: {line[:60]}')
+        if not known:
+            self._fail('the header names no format')
+
+    def _read_binary(self, element):
+        data, n, at = self._data, element.count, element.begin
+        kinds = [(name, np.dtype(self._order + t), l and np.dtype(self._order + l))
+                 for name, (t, l) in element.types.items()]
+        least = sum((l or t).itemsize for _, t, l in kinds)
+        if n * least > len(data) - at:
+            self._fail(f'the file ends within the {n} rows of {element.name}')
+        if not n:
+            element.end = at
+            for name, t, l in kinds:
+                element.columns[name] = np.zeros(0, t) if l is None else (np.zeros(0, int), np.zeros(0, t))
+            return
+        fields, length, first = [], {}, at
+        for name, t, l in kinds:  # the lengths of the first row are tried for all
+            if l is not None:
+                if first + l.itemsize > len(data):
+                    break
+                length[name] = int(np.frombuffer(data, l, 1, first)[0])
+                if not 0 <= length[name] <= len(data):
+                    break
+                fields.append((f'{name} count', l))
+                first += l.itemsize
+            size = length.get(name, 1)
+            fields.append((name, t, (size,)) if l is not None else (name, t))
+            first += t.itemsize * size
+        else:
+            row = np.dtype(fields)
+            if row.itemsize * n <= len(data) - at:
+                table = np.frombuffer(data, row, n, at)
+                if all((table[f'{name} count'] == k).all() for name, k in length.items()):
+                    element.end = at + n * row.itemsize
+                    for name, _, l in kinds:
+                        element.columns[name] = table[name] if l is None else (length[name], table[name])
+                    return
+        element.rows = self._row_begins(element, kinds)
+        element.end = int(element.rows[-1])
+        raw, place = np.frombuffer(data, np.uint8), element.rows[:-1].copy()
+
+        def values(kind, where):
+            return raw[where[:, None] + np.arange(kind.itemsize)].view(kind).ravel()
+
+        for name, t, l in kinds:
+            if l is None:
+                element.columns[name] = values(t, place)
+                place += t.itemsize
+            else:
+                counts = values(l, place).astype(np.int64)
+                place += l.itemsize
+                element.columns[name] = counts, values(t, _spread(place, counts, t.itemsize))
+                place += counts * t.itemsize
+
+    def _row_begins(self, element, kinds):
+        """(n + 1,) where the rows begin, one after another, since lists have any length."""
+        steps, fixed = [], 0  # bytes before each list's count, then its format and size of its values
+        for _, t, l in kinds:
+            if l is None:
+                fixed += t.itemsize
+            else:
+                steps.append((fixed, struct.Struct(self._order + l.char).unpack_from, l.itemsize, t.itemsize))
+                fixed = 0
+        data, at, begins = self._data, element.begin, []
+        try:
+            for _ in range(element.count):
+                begins.append(at)
+                for skip, unpack, own, size in steps:
+                    at += skip
+                    count, = unpack(data, at)
+                    if count < 0:
+                        self._fail(f'a list of {element.name} has {count} values')
+                    at += own + count * size
+                at += fixed
+                if at > len(data):
+                    raise struct.error
+        except struct.error:
+            self._fail(f'the file ends within the {element.count} rows of {element.name}')
+        return np.array(begins + [at], np.int64)
+
+    def _read_text(self, element):
+        data, n = self._data, element.count
+        kinds = list(element.types.items())
+        if n * len(kinds) * 2 - 1 > len(data) - element.begin:
+            self._fail(f'the file ends within the {n} rows of {element.name}')
+        if not hasattr(self, '_lines'):
+            self._text = np.frombuffer(data + (b'' if data.endswith(b'\n') else b'\n'), np.uint8)
+            ends = np.flatnonzero(self._text[self._body:] == 10) + self._body
+            if len(ends) == 1 and b'\r' in data[self._body:]:
+                ends = np.flatnonzero(self._text[self._body:] == 13) + self._body
+            self._lines = np.r_[self._body, ends + 1]
+            self._next = 0
+        begins = self._lines[self._next:self._next + n + 1]
+        floats = any(t[0] == 'f' for _, (t, _) in kinds)
+        if len(begins) == n + 1 and n:
+            text = data[begins[0]:begins[-1]]
+            values = numbers(text, np.float64 if floats else np.int64)
+            width, at = 0, 0  # of the first row
+            for _, (_, l) in kinds:
+                if l is not None and at < len(values):
+                    at += int(whole(np.clip(values[at], 0, len(data))))
+                at += 1
+            width = at
+            if len(values) == n * width:
+                table, at, good = values.reshape(n, width), 0, True
+                for name, (t, l) in kinds:
+                    if l is None:
+                        element.columns[name] = _typed(table[:, at], t)
+                        at += 1
+                    else:
+                        k = int(table[0, at])
+                        good &= bool((table[:, at] == k).all())
+                        element.columns[name] = k, table[:, at + 1:at + 1 + k]
+                        at += 1 + k
+                if good:
+                    element.rows, element.end = begins, int(begins[-1])
+                    self._next += n
+                    return
+        self._read_uneven_text(element, kinds)
+
+    def _read_uneven_text(self, element, kinds):
+        """Rows with lists of several lengths, lines without words, rows not by lines."""
+        n, lines = element.count, self._lines[self._next:]
+        count = (
+            words_of_lines(self._text[lines[0] :], lines[:-1] - lines[0])
+            if len(lines) > 1
+            else np.zeros(0, int))
+        used = np.flatnonzero(count)[:n]
+        if len(used) < n:
+            if self._by_words(element):
+                return
+            self._fail(f'the file ends within the {n} rows of {element.name}')
+        stop = used[-1] + 1 if n else 0
+        values = numbers(self._data[lines[0]:lines[stop]])
+        count = count[used]
+        place = np.cumsum(count) - count
+        if len(values) != count.sum():
+            bad = int(np.searchsorted(np.cumsum(count), len(values), 'right'))
+            self._fail(f'a row of {element.name} has a word that is no number: '
+                       f'{self._data[lines[used[bad]]:lines[used[bad] + 1]][:60].decode("latin1").strip()}')
+        end = place + count
+        for name, (t, l) in kinds:
+            if not (place < end).all():
+                place = None
+                break
+            if l is None:
+                element.columns[name] = _typed(values[place], t)
+                place = place + 1
+            else:
+                length = values[place]
+                if not ((length >= 0) & (length <= end - place - 1)).all():
+                    place = None
+                    break
+                length = whole(length)
+                element.columns[name] = length, values[_spread(place + 1, length, 1)]
+                place = place + 1 + length
+        if place is None or not np.array_equal(place, end):
+            if self._by_words(element):
+                return
+            self._fail(f'the rows of {element.name} do not have the words that the header says')
+        begins = lines[used]
+        element.rows, element.end = np.r_[begins, lines[stop]], int(lines[stop])
+        self._next += int(stop)
+
+    def _by_words(self, element):
+        """Gives each row of this and the following elements a line of its own, if the words suffice."""
+        if getattr(self, '_rowed', False):
+            return False
+        self._rowed = True
+        words, at, rows = self._data[element.begin:].split(), 0, []
+        for other in self._elements[self._elements.index(element):]:
+            for _ in range(other.count if other.types else 0):
+                begin = at
+                for _, l in other.types.values():
+                    try:
+                        at += 1 + (0 if l is None else int(words[at]))
+                    except (ValueError, IndexError):
+                        return False
+                if at > len(words) or at < begin:
+                    return False
+                rows.append(b' '.join(words[begin:at]) + b'\n')
+        self._data = self._data[:element.begin] + b''.join(rows)
+        before = self._lines[:self._next]
+        self._text = np.frombuffer(self._data, np.uint8)
+        ends = np.flatnonzero(self._text[element.begin:] == 10) + element.begin
+        self._lines = np.r_[before, element.begin, ends + 1]
+        self._read_text(element)
+        return True
+
+    def _expand_strips(self, element):
+        """Reads the file again with its strips of triangles as faces."""
+        name = next((p for p in _INDICES if p in element.types), None)
+        if name is None:
+            self._fail('the strips have no vertex_indices')
+        _, values = element.columns[name]
+        values = whole(np.ravel(values))
+        counts, _ = element.columns[name]
+        counts = np.broadcast_to(counts, element.count)
+        ends = np.zeros(len(values), bool)
+        ends[np.cumsum(counts)[counts > 0] - 1] = True
+        strip = np.r_[0, np.cumsum(ends | (values < 0))[:-1]]
+        begin = np.flatnonzero(np.r_[True, (strip[1:] != strip[:-1])])
+        place = np.arange(len(values)) - begin[np.searchsorted(begin, np.arange(len(values)), 'right') - 1]
+        last = np.arange(2, len(values))
+        last = last[(strip[last] == strip[last - 2]) & (values[last] >= 0)]
+        flip = (place[last] % 2 == 1)
+        faces = np.c_[np.where(flip, values[last - 1], values[last - 2]),
+                      np.where(flip, values[last - 2], values[last - 1]), values[last]]
+        at = next(i for i, line in enumerate(self._header) if line.split()[:2] == ['element', 'tristrips'])
+        stop = at + 1
+        while self._header[stop].split()[:1] == ['property']:
+            stop += 1
+        header = self._header[:at] + [f'element face {len(faces)}', 'property list uchar int vertex_indices']
+        head = '\n'.join(header + self._header[stop:]).encode('latin1') + b'\n'
+        if self._order is None:
+            rows = ''.join('3 %d %d %d\n' % tuple(f) for f in faces.tolist()).encode()
+        else:
+            table = np.zeros(len(faces), [('n', 'u1'), ('v', self._order + 'i4', 3)])
+            table['n'], table['v'] = 3, faces
+            rows = table.tobytes()
+        self.__init__(
+            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :])
+        self.messages.append('strips of triangles are written as faces')
+
+    def _read_mesh(self):
+        vertex, face = self._by_name.get('vertex'), self._by_name.get('face')
+        if vertex is None or not all(p in vertex.types and vertex.types[p][1] is None for p in 'xyz'):
+            self._fail('there are no vertices with x, y and z')
+        self.vertices = np.empty((vertex.count, 3))
+        for k, p in enumerate('xyz'):
+            self.vertices[:, k] = vertex.columns[p]
+        self.vertex_colours = _colours(vertex)
+        name = next((p for p in _INDICES if face and p in face.types and face.types[p][1]), None)
+        self._indices = name
+        if name is None:
+            return self.set_polygons(np.zeros((0, 3), np.int64))
+        counts, values = face.columns[name]
+        if np.isscalar(counts) and counts == 3:
+            self.set_polygons(values)
+        else:
+            starts = np.r_[0, np.cumsum(np.broadcast_to(counts, face.count), dtype=np.int64)]
+            self.set_polygons(np.ravel(values), starts)
+        colours = _colours(face)
+        self.face_colours = None if colours is None else colours[self.polygon]
+        names = [_name(line.split(None, 2)[2].strip()) for line in self._header
+                 if line.split()[:2] == ['comment', 'TextureFile'] and len(line.split()) > 2]
+        self.pictures = [_pictures.Picture(n, beside(self.path.parent, n)) for n in names]
+        self.uv = self._coordinates(vertex, face)
+        if self.uv is not None and names:
+            number = face.columns['texnumber'] if face.types.get('texnumber', ('', 1))[1] is None else 0
+            number = whole(np.broadcast_to(number, face.count))[self.polygon]
+            known = (number >= 0) & (number < len(names)) & ~np.isnan(self.uv).any((1, 2))
+            self.uv_picture = np.where(known, number, -1).astype(np.int32)
+        return None
+
+    def _coordinates(self, vertex, face):
+        if face.types.get('texcoord', ('', None))[1]:
+            counts, values = face.columns['texcoord']
+            counts = np.broadcast_to(counts, face.count)
+            uv, own = np.full((int(self.starts[-1]), 2), np.nan), np.diff(self.starts)
+            full = counts == 2 * own
+            value = np.repeat(full, counts)
+            uv[np.repeat(full, own)] = np.ravel(values)[value].reshape(-1, 2)
+            return uv[self.corners]
+        for pair in _COORDINATES:
+            if all(p in vertex.types and vertex.types[p][1] is None for p in pair):
+                return np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
+        return None
+
+    @np.errstate(all='ignore')
+    def corner_normals(self):
+        vertex = self._by_name['vertex']
+        if not all(p in vertex.types and vertex.types[p][1] is None for p in ('nx', 'ny', 'nz')):
+            return None
+        return np.stack([vertex.columns[p] for p in ('nx', 'ny', 'nz')], 1).astype(np.float32)[self.faces]
+
+    # Writing
+
+    def _patch(self, path, uv, texture, refined, uv_set):
+        if self._indices is None:
+            self._fail('there are no faces')
+        new = rewritten(self, uv, refined)
+        large = np.diff(self.starts) > 3
+        new.torn |= large
+        face = self._by_name['face']
+        kind = face.types.get('texcoord', ('f4', 'u1'))
+        extra = sum(len(new.triangles(p)) - 1 for p in np.flatnonzero(new.torn))
+        header = self._new_header(path, face, face.count + extra, len(new.points), texture)
+        body = []
+        for element in self._elements:
+            if element is face:
+                body.append(self._face_rows(face, kind, new, texture is not None))
+            else:
+                body.append(self._data[element.begin:element.end])
+            if element.name == 'vertex' and len(new.points):
+                body.append(self._new_vertices(element, new))
+        body.append(self._data[self._elements[-1].end:])
+        write_file(path, b''.join([header, *body]))
+        files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
+        messages = [f'{counted(int(large.sum()), "face")} with more than 3 corners: written as triangles, '
+                    'since MeshLab reads no others with texture coordinates'] if large.any() else []
+        return messages + copy_beside(files, self.path.parent, path.parent)
+
+    def _new_header(self, path, face, faces, vertices, texture):
+        lines, out, current = self._header, [], None
+        names = [i for i, line in enumerate(lines) if line.split()[:2] == ['comment', 'TextureFile']]
+        shows = None if texture is None else 'comment TextureFile ' + relative(
+            texture, path.parent).encode('utf-8', 'surrogateescape').decode('latin1')  # as all lines are kept
+        for i, line in enumerate(lines):
+            words = line.split()
+            if words[:1] in (['element'], ['end_header']):
+                if current == 'face' and 'texcoord' not in face.types:
+                    out.append('property list uchar float texcoord')
+                current = words[1] if words[0] == 'element' else None
+                if current == 'face':
+                    line = f'element face {faces}'
+                elif current == 'vertex' and vertices:
+                    line = f'element vertex {int(words[2]) + vertices}'
+            if shows and i in names:
+                continue
+            out.append(line)
+            if shows and words[:1] == ['format']:
+                out.append(shows)
+        end = '\r\n' if b'\r\n' in self._data[:self._body] else '\n'
+        if b'\n' not in self._data[:self._body]:
+            end = '\r'
+        return (end.join(out) + end).encode('latin1')
+
+    def _face_rows(self, face, kind, new, zero):
+        """The rows of faces with texcoord, which keeps its place or is the last."""
+        text = self._order is None
+        wide = face.columns.get('texcoord')
+        counts = face.columns[self._indices][0]
+        if not text and np.isscalar(counts) and face.rows is None and not new.torn.any() and face.count:
+            rows = np.frombuffer(self._data[face.begin:face.end], np.uint8).reshape(face.count, -1).copy()
+            at = {}
+            place = 0
+            for name, (t, l) in face.types.items():
+                at[name] = place
+                size = np.dtype(t).itemsize
+                place += size if l is None else np.dtype(l).itemsize + size * face.columns[name][0]
+                if zero and name == 'texnumber' and l is None:
+                    rows[:, at[name]:place] = 0
+                at[name, 'end'] = place
+            begin, end = (at['texcoord'], at['texcoord', 'end']) if wide is not None else (place, place)
+            values = new.corner_uv.reshape(face.count, -1).astype(self._order + kind[0])
+            head = np.full((face.count, 1), 2 * counts, self._order + kind[1])
+            return np.concatenate(
+                [rows[:, :begin], head.view(np.uint8), values.view(np.uint8), rows[:, end:]], 1
+            ).tobytes()
+        fields = self._fields(face)
+        begins = face.row_begins()
+        if text:
+            form = '%.9g' if kind[0] == 'f4' else '%.17g'
+
+            def listed(pairs):
+                return (
+                    f'{pairs.size} ' + ' '.join([form] * pairs.size) % tuple(pairs.ravel().tolist())
+                ).encode()
+        else:
+            def listed(pairs):
+                return (np.array(pairs.size, self._order + kind[1]).tobytes() +
+                        pairs.astype(self._order + kind[0]).tobytes())
+        gap = b' ' if text else b''
+        out = []
+        starts, torn = self.starts.tolist(), new.torn
+        simple = not zero or 'texnumber' not in face.types
+        for p in range(face.count):
+            pairs = new.corner_uv[starts[p]:starts[p + 1]]
+            if not torn[p] and wide is None and simple:
+                row = self._data[begins[p]:begins[p + 1]]
+                if text:
+                    kept = row.rstrip()
+                    out += (kept, b' ', listed(pairs), row[len(kept):])
+                else:
+                    out += (row, listed(pairs))
+                continue
+            row = fields(p)
+            end = row.pop(None)
+            if zero and 'texnumber' in row:
+                row['texnumber'] = b'0' if text else bytes(len(row['texnumber']))
+            if not torn[p]:
+                row['texcoord'] = listed(pairs)
+                out += (gap.join(row.values()), end)
+                continue
+            t, l = face.types[self._indices]
+            for k in new.triangles(p):
+                row[self._indices] = (b'3 %d %d %d' % tuple(new.vertices[k]) if text else
+                                      np.array(3, self._order + l).tobytes() +
+                                      new.vertices[k].astype(self._order + t).tobytes())
+                row['texcoord'] = listed(new.uv[k])
+                out += (gap.join(row.values()), end)
+        return b''.join(out)
+
+    def _fields(self, element):
+        """A function from a row to its bytes by property; None: what ends the row."""
+        begins, types, order = element.row_begins(), element.types, self._order
+
+        def of_text(p):
+            row = self._data[begins[p]:begins[p + 1]]
+            words, fields, at = row.split(), {}, 0
+            for name, (_, l) in types.items():
+                stop = at + 1 + (0 if l is None else int(float(words[at])))
+                fields[name], at = b' '.join(words[at:stop]), stop
+            fields[None] = row[len(row.rstrip()):] or b'\n'
+            return fields
+
+        def of_binary(p):
+            at, fields = int(begins[p]), {}
+            for name, (t, l) in types.items():
+                size = np.dtype(t).itemsize
+                if l is not None:
+                    size = np.dtype(l).itemsize + size * int(np.frombuffer(self._data, order + l, 1, at)[0])
+                fields[name], at = self._data[at:at + size], at + size
+            fields[None] = b''
+            return fields
+
+        return of_text if order is None else of_binary
+
+    def _new_vertices(self, element, new):
+        """Rows of the vertices that a refinement adds: what lies at the corners of the face, mixed."""
+        t, k = new.samples.T
+        corners, weights = self.faces[new.origin[t]], new.weights[t, k]
+        nearest = corners[np.arange(len(t)), weights.argmax(1)]
+        columns = {}
+        for name, (kind, l) in element.types.items():
+            if l is None:
+                columns[name] = mixed(np.asarray(element.columns[name])[corners], weights)
+        for axis, name in enumerate('xyz'):
+            columns[name] = new.points[:, axis].astype(element.types[name][0])
+        fields, rows = self._fields(element), []
+        for i, vertex in enumerate(nearest):
+            row = fields(vertex)
+            end = row.pop(None)
+            for name, values in columns.items():
+                kind = element.types[name][0]
+                form = '%.9g' if kind == 'f4' else '%.17g' if kind == 'f8' else '%d'
+                row[name] = ((form % values[i]).encode() if self._order is None else
+                             np.array(values[i], self._order + kind).tobytes())
+            rows.append((b' ' if self._order is None else b'').join(row.values()) + end)
+        return b''.join(rows)
+
+
+def _name(text):
+    """The name of a file that a line of the header says."""
+    raw = text.encode('latin1')
+    try:
+        return raw.decode('utf-8')
+    except UnicodeDecodeError:
+        return text
+
+
+def _typed(values, kind):
+    return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
+
+
+def _spread(begin, counts, size):
+    """Where the values of lists lie, which begin at `begin`."""
+    total = int(counts.sum())
+    inner = np.arange(total) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.repeat(begin, counts) + inner * size
+
+
+def _colours(element):
+    for lead in ('', 'diffuse_'):
+        names = [lead + c for c in ('red', 'green', 'blue')]
+        if all(n in element.types and element.types[n][1] is None for n in names):
+            if 'alpha' in element.types and element.types['alpha'][1] is None:
+                names.append('alpha')
+            columns = []
+            for n in names:
+                values = np.asarray(element.columns[n])
+                kind = element.types[n][0]
+                columns.append(values.astype(np.float32) / (1 if kind[0] == 'f' else np.iinfo(kind).max))
+            if len(columns) == 3:
+                columns.append(np.ones(element.count, np.float32))
+            return np.clip(np.nan_to_num(np.stack(columns, 1)), 0, 1)
+    return None
+
+
+def plain(mesh):
+    """(bytes) A binary PLY of the mesh without texture coordinates."""
+    single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
+    kind, word = ('<f4', 'float') if single else ('<f8', 'double')
+    fields, header = [(p, kind) for p in 'xyz'], [f'property {word} {p}' for p in 'xyz']
+    if mesh.vertex_colours is not None:
+        fields += [(p, 'u1') for p in ('red', 'green', 'blue', 'alpha')]
+        header += [f'property uchar {p}' for p in ('red', 'green', 'blue', 'alpha')]
+    table = np.zeros(len(mesh.vertices), fields)
+    for k, p in enumerate('xyz'):
+        table[p] = mesh.vertices[:, k]
+    if mesh.vertex_colours is not None:
+        for k, p in enumerate(('red', 'green', 'blue', 'alpha')):
+            table[p] = np.rint(mesh.vertex_colours[:, k] * 255)
+    corner = np.zeros(int(mesh.starts[-1]), '<i4')
+    corner[mesh.corners] = mesh.faces
+    count = np.diff(mesh.starts)
+    kind = ('<u1', 'uchar') if not len(count) or count.max() < 128 else ('<u4', 'uint')
+    if len(count) and count.min() == count.max():
+        faces = np.zeros(len(count), [('n', kind[0]), ('v', '<i4', int(count[0]))])
+        faces['n'], faces['v'] = count, corner.reshape(len(count), -1)
+        rows = faces.tobytes()
+    else:
+        heads = [n.tobytes() for n in count.astype(kind[0])]
+        starts = mesh.starts.tolist()
+        rows = b''.join(
+            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:])))
+    lines = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(mesh.vertices)}', *header,
+             f'element face {len(count)}', f'property list {kind[1]} int vertex_indices', 'end_header', '']
+    return '\n'.join(lines).encode() + table.tobytes() + rows
