@@ -580,7 +580,7 @@ TEST(Parametrize, TheReportMeasuresTheOutput)
 	const SurfaceMesh donut = bumpyTorus(10, 7, random);
 	const SurfaceMesh large = sideBySide(
 		sideBySide(donut, shaken(perforatedSlab(2, 2), 0.02, random), 20), bumpyPatch(6), 40);
-	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-5), 9.0);
+	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-3), 9.0);
 	for (const auto& [mesh, output] :
 		 {std::pair(large, OutputTriangulation::KeepMesh),
 		  std::pair(large, OutputTriangulation::CommonRefinement),
