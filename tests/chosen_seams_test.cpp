@@ -504,6 +504,21 @@ TEST(ChosenSeams, KeepTheSeamsOfAMap)
 		expectCounts(mesh, before, r.report);
 		const EdgeSet after = jumps(mesh, r);
 		EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+		const auto kept = Flow::Compute(m, Flow::Params(), Marks(), Flow::ReadMap(m));
+		expectCounts(mesh, before, kept.report);
+		EXPECT_EQ(jumps(mesh, kept), before);
+		EXPECT_EQ(kept.report.seamEdges + kept.report.overlapCuts, 0);
+		const auto packed = Flow::Compute(
+			m,
+			[] {
+				Flow::Params params;
+				params.charts = Charts::AsGiven;
+				return params;
+			}(),
+			Marks(),
+			Flow::ReadMap(m));
+		EXPECT_EQ(jumps(mesh, packed), before);
+		EXPECT_EQ(packed.report.charts, kept.report.charts);
 	}
 }
 

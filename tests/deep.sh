@@ -17,7 +17,7 @@
 #     extra-plugins   the plugin, as meshlab-extra-plugins builds it
 #     threads         the thread sanitizer
 #     valgrind        the fuzz target under valgrind
-#     fuzzing         20000 hostile meshes
+#     fuzzing         20000 hostile meshes, and a minute of damaged files
 #     clang-tidy      the checks of .clang-tidy
 #     sanitizers      the address and undefined-behaviour sanitizers
 #
@@ -36,7 +36,7 @@ googletest=/usr/src/googletest
 parts=(wheels blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
 # Seconds on two idle cores, rounded up.
 declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240 [extra-plugins]=180 [threads]=60
-	[valgrind]=100 [fuzzing]=150 [clang-tidy]=420 [sanitizers]=750)
+	[valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)
 not_run=77
 
 # The programs of the core that read no files of others.
@@ -241,6 +241,7 @@ part_fuzzing() {
 	for seed in "${processes[@]}"; do
 		wait "$seed" || status=1
 	done
+	(cd "$folder/fuzzing" && "$build/venv/bin/python" "$root/tests/fuzz/fuzz_files.py" 60) || status=1
 	return $status
 }
 

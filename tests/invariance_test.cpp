@@ -176,7 +176,7 @@ protected:
 	/// Whether places are read beside lengths: on the sphere, of caps and of pieces of faces.
 	bool readsPlaces() const
 	{
-		return isToSphere() || isRefined() || m_call.name == "AnnulusCapped";
+		return isToSphere() || isRefined() || m_reference.map.report.cappedHoles > 0;
 	}
 
 	/// What one more rounding of all coordinates makes of a measure: of lengths the last digit of the extent

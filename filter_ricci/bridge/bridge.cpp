@@ -87,21 +87,6 @@ bool isOwnOutput(const CMeshO& m)
 		   sum > 4.0 * ricci::kPi + 1e-3;
 }
 
-/// Vertices at the place of another one.
-std::size_t coincidentVertices(const CMeshO& m)
-{
-	std::vector<std::array<Scalarm, 3>> places;
-	for (const CVertexO& v : m.vert)
-		if (!v.IsD())
-			places.push_back({v.cP()[0], v.cP()[1], v.cP()[2]});
-	std::sort(places.begin(), places.end());
-	const auto end = std::unique(places.begin(), places.end());
-	return static_cast<std::size_t>(places.end() - end);
-}
-
-/// Share of the vertices from which on the mesh is told to be open between those at one place.
-constexpr double kManyCoincident = 0.1;
-
 /// Sides of faces at chosen seams, for each face: beyond it they part more faces than they leave joined.
 constexpr int kManySeams = 2;
 
@@ -153,24 +138,29 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 	return *model;
 }
 
-/// The sides of faces at which the surface is to be opened.
+/// What the surface is to be opened by: sides of faces, or a map.
+struct Openings
+{
+	Flow::SideMarks marks;
+	Flow::TextureMap map;
+};
+
 /// \throw Refusal if the mesh has none of what was chosen
-Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
+Openings chosenSeams(const MeshModel& model, Seams seams)
 {
 	using Chosen = vcg::tri::RicciSeams<CMeshO>;
-	Flow::SideMarks marks;
+	Openings openings;
+	Flow::SideMarks& marks = openings.marks;
 	switch (seams) {
 	case Seams::Shortest:
 		break;
 	case Seams::Texture:
 		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
 			!model.hasDataMask(MeshModel::MM_VERTTEXCOORD))
-			throw Refusal("{seams} is 'Existing texture seams', but the mesh has no texture "
-						  "coordinates: open one that has them, or choose other seams.");
-		marks = Chosen::OfTexture(model.cm);
-		if (marks.empty())
-			ricci::logLine("The texture coordinates jump at no edge inside the surface: there are "
-						   "no seams to keep but its borders.");
+			throw Refusal(
+				"{seams} is 'Existing texture seams', or charts are to stay as they are, but the "
+				"mesh has no texture coordinates: open one that has them, or choose otherwise.");
+		openings.map = Flow::ReadMap(model.cm);
 		break;
 	case Seams::SelectedEdges:
 		marks = Chosen::OfSelectedEdges(model.cm);
@@ -186,7 +176,7 @@ Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
 				"and another: select a part of the surface first, or choose other seams.");
 		break;
 	}
-	return marks;
+	return openings;
 }
 
 /// Layers that one run adds. They are removed again unless the run reaches its end.
@@ -399,8 +389,8 @@ void writeMesh(
 
 /// The flow with room for the gutter of a texture between its charts.
 /// \throw Refusal if there is none for so many charts
-Flow::Result computeFor(
-	const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Flow::SideMarks& seams)
+Flow::Result
+computeFor(const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Openings& seams)
 {
 	const bool widens = texture.minMargin() > par.chartMargin;
 	if (widens) {
@@ -410,7 +400,7 @@ Flow::Result computeFor(
 			" keeps its charts apart.");
 	}
 	try {
-		return Flow::Compute(model.cm, par, seams);
+		return Flow::Compute(model.cm, par, seams.marks, seams.map);
 	}
 	catch (const ricci::InvalidOption& e) {
 		if (!widens || e.problem != ricci::InvalidOption::ChartMarginTooWide)
@@ -521,7 +511,7 @@ public:
 
 	ricci::Task task;
 	MeshModel& model;
-	const Flow::SideMarks seams;
+	const Openings seams;
 	CarriedTexture texture;
 
 private:
@@ -532,13 +522,13 @@ private:
 		std::vector<std::string> lines{toSentence(results, report.choice)};
 		for (const std::string& doubt : doubts(filter, results, par))
 			lines.push_back(doubt);
-		const std::size_t coincident = report.components > 1 ? coincidentVertices(model.cm) : 0;
-		if (static_cast<double>(coincident) > kManyCoincident * model.cm.vn)
+		if (report.piecesApart > 0)
 			lines.push_back(
-				std::to_string(coincident) +
-				" vertices lie where others do, and the surface is open between them: "
-				"'Merge Close Vertices' joins its " +
-				std::to_string(report.components) + " components.");
+				"{join_vertices} 'Always' joins pieces that lie on others along edges with "
+				"vertices of their own.");
+		if (!seams.map.empty() && report.chosenSeamEdges == 0)
+			lines.push_back("The texture coordinates jump at no edge inside the surface: there are "
+							"no seams to keep but its borders.");
 		if (isStretched(model.cm))
 			lines.push_back("The matrix of the layer stretches the mesh: it is flattened as it is "
 							"seen, and measured so.");
@@ -598,7 +588,7 @@ Outcome applyHyperbolic(const Parameters& par, MeshDocument& md, ricci::Progress
 	run.task.setMemoryLimit(freeMemory()); // beside the pictures
 	const Flow::Result result = [&] {
 		const ricci::Task flow(0.0, run.flowShare());
-		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams);
+		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams.marks, run.seams.map);
 	}();
 	Results results = toResults(result.report);
 	if (result.report.components - result.report.leftOutComponents == 1 &&

@@ -62,13 +62,19 @@ flat_layer = false | Flat mesh as new layer | bool
 	Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the least mean conformal distortion,
 	or the <b>least stretch</b>, of lengths too: best on chosen seams, whose sides then differ. Only for the method
 	'Intrinsic flips'.
-+ charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room
++ charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room; As they are, only packed
 	<b>Without overlap</b>: charts that cover a part of the plane twice are cut apart along the shortest lines. <b>Cut for
 	room</b>: with <b>Automatic</b>, also a chart that fills little of the square, where the room is worth the seam.
+	<b>As they are</b>: those of the texture coordinates that the mesh has keep their shape, and are only turned, scaled
+	by one factor and packed.
 + normalize_uv = true | Fit into the unit square | bool
 	Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of the metric.
 + sphere_layer = false | Sphere as new layer | bool
 	Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed surface of genus 0.
++ join_vertices = Automatic | Join split vertices | Automatic; Never; Always
+	Vertices that lie on each other along edges are one for the map, as formats split them for normals and texture
+	coordinates; the mesh keeps them. <b>Automatic</b>: where faces share next to no vertices. Solids that touch and
+	double-sided faces stay apart.
 + carry_texture = | Carry the texture over to | PNG image (*.png)
 	A PNG file that gets what the mesh shows now, its textures or else its colours, drawn for the new texture coordinates.
 	Empty: no texture.
@@ -111,6 +117,7 @@ canonical_polygon = false | Canonical polygon | bool
 	mesh is never changed.
 + finish = Repair | Finish | None; Repair
 	Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
++ join_vertices
 + carry_texture
 + texture_size
 + report
@@ -273,6 +280,7 @@ void readFlowOptions(const Parameters& par, ricci::FlowOptions& flow)
 	readChoice(par, "method", flow.method);
 	readChoice(par, "output_triangulation", flow.output);
 	readChoice(par, "finish", flow.finish);
+	readChoice(par, "join_vertices", flow.join);
 }
 
 constexpr double kDegree = ricci::kPi / 180.0;
@@ -352,6 +360,8 @@ Settings readSettings(const Parameters& par)
 	settings.flow.chartMargin = valueOf<double>(par, "chart_margin");
 	readChoice(par, "holes", settings.flow.holes);
 	readChoice(par, "charts", settings.flow.charts);
+	if (settings.flow.charts == ricci::Charts::AsGiven)
+		settings.seams = Seams::Texture;
 	settings.sphereLayer = valueOf<bool>(par, "sphere_layer");
 	if (!settings.texture.file.empty() && !settings.flow.normalizeUV)
 		throw Refusal("{carry_texture} draws on the unit square: choose {normalize_uv}, or leave "

@@ -195,8 +195,7 @@ class Parametrization:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture
-        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
-        too."""
+        has drawn. What else was in the file that the mesh is from stays."""
     def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
         """Writes one of the layers to a PLY file."""
 

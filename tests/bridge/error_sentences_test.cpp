@@ -121,6 +121,7 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::TooFewCones, {"-17", "23"}},
 		{InvalidOption::TooFewVertices, {"-17", "61"}},
 		{InvalidOption::CoverTooLarge, {"-17", "61"}},
+		{InvalidOption::NoMap, {"61"}},
 		{InvalidOption::TooFewBoundaryVertices, {"61"}},
 		{InvalidOption::CornerCount, {"61"}},
 		{InvalidOption::CornersOffBoundary, {"61"}},

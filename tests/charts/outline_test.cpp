@@ -163,7 +163,7 @@ TEST(PackCharts, ThinAndSmallChartsHaveRoomOfTheirOwn)
 		for (const double margin : {0.0, 0.05})
 			for (const ChartTurns turns : {ChartTurns::None, ChartTurns::Free}) {
 				Parametrization map = boxes(sizes);
-				packCharts(map, {true, margin, {}}, turns);
+				packCharts(map, {true, margin, ChartTurns::Free, {}}, turns);
 				for (std::size_t i = 0; i < sizes.size(); ++i) {
 					const Box2& room = map.charts[i].box;
 					Box2 own;
@@ -210,7 +210,8 @@ TEST(Upright, IsAnOutlineOfRightAngles)
 				 asPoint(own * asComplex(corners[(i + 1) % corners.size()]))});
 		const std::complex<double> turn = uprightTurn(outline), whole = turn * own;
 		EXPECT_NEAR(std::abs(turn), 1.0, 1e-14);
-		EXPECT_NEAR(std::abs(whole.real() * whole.imag()), 0.0, 1e-14); // by right angles from upright
+		EXPECT_NEAR(
+			std::abs(whole.real() * whole.imag()), 0.0, 1e-14); // by right angles from upright
 		// A round bay of less than half the outline does not matter, a larger one does.
 		for (const double radius : {1.5, 4.0}) {
 			Outline round = outline;

@@ -52,7 +52,9 @@ METHOD = ["Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"]
 CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "cone_rounding": ["Free", "Multiples of pi/2"],
            "method": METHOD,
-           "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for room"],
+           "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for room",
+                      "As they are, only packed"],
+           "join_vertices": ["Automatic", "Never", "Always"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],
            "holes": ["Boundaries", "Capped", "Short ones capped"]}
@@ -64,6 +66,7 @@ PARAMETERS = [
     ("cone_rounding", "Enum", 0),
     ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 2),
     ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False),
+    ("join_vertices", "Enum", 0),
     ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
     ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)]
 
@@ -75,14 +78,15 @@ HYPERBOLIC = types.SimpleNamespace(
                              "From vertex quality"],
         "seams": SEAMS, "method": METHOD[:2],
         "output_triangulation": ["Keep the mesh", "Common refinement"],
-        "finish": ["None", "Repair"]},
+        "finish": ["None", "Repair"],
+        "join_vertices": ["Automatic", "Never", "Always"]},
     PARAMETERS=[
         ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
         ("output_triangulation", "Enum", 0), ("colorize", "Bool", False),
         ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
         ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
         ("seams", "Enum", 0), ("free_boundary", "Bool", False), ("method", "Enum", 0),
-        ("finish", "Enum", 1),
+        ("finish", "Enum", 1), ("join_vertices", "Enum", 0),
         ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
         ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)])
 

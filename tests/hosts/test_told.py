@@ -268,8 +268,21 @@ class Input(Told):
         torus = meshes.torus()
         vertices = [torus.vertices[v] for face in torus.faces for v in face]
         soup = meshes.Mesh(vertices, [(3 * i, 3 * i + 1, 3 * i + 2) for i in range(len(torus.faces))])
-        self.assertIn("'Merge Close Vertices'", self.told(mesh_set(soup))[1])
-        self.assertNotIn("'Merge Close Vertices'", self.told(mesh_set(torus))[1])
+        results, log = self.told(mesh_set(soup))
+        self.assertEqual((results["components"], results["genus"]), (1, 1))
+        self.assertIn("had vertices of their own there were joined", log)
+        self.assertNotIn("joined", self.told(mesh_set(torus))[1])
+
+    def test_pieces_that_could_be_joined(self):
+        """Faces of a torus in rings that share no vertices: most sides are shared, and the cuts may be meant."""
+        torus = meshes.torus()
+        half = len(torus.faces) // 2
+        count = len(torus.vertices)
+        faces = [tuple(v + count * (i >= half) for v in face) for i, face in enumerate(torus.faces)]
+        torn = meshes.Mesh(list(torus.vertices) * 2, faces)
+        log = self.told(mesh_set(torn))[1]
+        self.assertIn("1 piece could be joined to others", log)
+        self.assertIn("'Always' joins pieces", log)
 
     def test_sphere_layer_of_thin_shells(self):
         for thickness in (0.1, 0.01, 0.001):

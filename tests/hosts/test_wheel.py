@@ -785,6 +785,20 @@ class Functions(unittest.TestCase):
                              ["broken.ply", "hill.csv", "hill.html", "meshes"])
             os.chdir(before)
 
+    def test_formats_without_shared_vertices(self):
+        """A surface of STL is one, unless its faces are wanted apart."""
+        vertices, faces = arrays(meshes.double_torus())
+        rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+        rows["corners"] = vertices[faces]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "slab.stl")
+            with open(path, "wb") as target:
+                target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+            result = flatten(path)
+            self.assertEqual((result.genus, result.components), (2, 1))
+            self.assertEqual(result.charts, flatten(vertices, faces).charts)
+            self.assertEqual(flatten(path, join_vertices="Never").components, len(faces))
+
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))
         self.assertLessEqual(set(common.ALWAYS), set(result.results))

@@ -99,6 +99,7 @@ public:
 		TooFewVertices, ///< value: cones asked for; bound are needed, count inner vertices there
 		SphereOfComponents, ///< count: components; the map to the sphere takes one
 		NotASphere,         ///< surface
+		NoMap,              ///< count: faces for which SurfaceMesh::map has no coordinates
 		CoverTooLarge       ///< value: rings; would need more than count faces
 	};
 

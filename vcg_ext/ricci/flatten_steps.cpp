@@ -17,7 +17,52 @@ namespace {
 /// Beyond this genus the period matrix is left out: the log would drown in its numbers.
 constexpr int kMaxPeriodGenus = 10;
 
+/// What the triangles of the map leave of a full turn round a vertex inside, and of half a turn on the
+/// boundary.
+/// \return [vertex]
+std::vector<double> curvatureOf(const FlatMesh& map, const VertexArray<char>& isBoundary)
+{
+	std::vector<double> curvature;
+	for (const char isOn : isBoundary)
+		curvature.push_back(isOn ? kPi : 2.0 * kPi);
+	for (const int f : map.points.indices())
+		for (const Corner c : cornersOf(f)) {
+			const Point2 a = map.at(c.next()) - map.at(c);
+			const Point2 b = map.at(c.next().next()) - map.at(c);
+			curvature[positionOf(map.vertices[c])] -= std::atan2(std::abs(cross(a, b)), dot(a, b));
+		}
+	for (const Vertex v : isBoundary.indices())
+		if (double& k = curvature[positionOf(v)]; !isBoundary[v] && std::abs(k) <= kConeCurvature)
+			k = 0.0;
+	return curvature;
+}
+
 } // namespace
+
+void describeByMap(const Component& component, Parametrization& map)
+{
+	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
+	map.targetCurvature = curvatureOf(map.mesh, topology.boundary);
+	Report& report = map.report;
+	report.components = 1;
+	report.genus = topology.type.genus;
+	report.boundaryLoops = topology.type.boundaryLoops;
+	report.eulerCharacteristic = topology.type.eulerCharacteristic();
+	report.cones = 0;
+	for (const Vertex v : topology.boundary.indices())
+		report.cones += !topology.boundary[v] && map.targetCurvature[positionOf(v)] != 0.0;
+	const Seams seam = seams(map.mesh);
+	report.seamEdges = static_cast<int>(seam.edges.size());
+	report.seamLength = seam.length;
+}
+
+void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points)
+{
+	for (Point2& p : points) {
+		const Point2 q = r.inFrame(p);
+		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
+	}
+}
 
 void FlowLog::add(const Target& target)
 {

@@ -3,6 +3,7 @@
 #ifndef RICCI_FLATTEN_STEPS_H
 #define RICCI_FLATTEN_STEPS_H
 
+#include "base/convex_hull.h"
 #include "base/task.h"
 #include "cones/prescribed_target.h"
 #include "cut/cut_graph.h"
@@ -81,6 +82,13 @@ bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation outp
 
 /// Says what the component is.
 void logComponent(const Component& component, const SurfaceType& type);
+
+/// Fills in what a map of a component without a flow of its own tells: the surface, its seams and, as
+/// Parametrization::targetCurvature, what its triangles leave of the turns round the vertices.
+void describeByMap(const Component& component, Parametrization& map);
+
+/// Scales points and moves them from the frame of a rectangle to one along the axes, from the origin.
+void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points);
 
 /// A component by itself, without its map: the values of its vertices, and what is known of its surface, its flow and
 /// its cut.

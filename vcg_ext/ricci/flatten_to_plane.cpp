@@ -204,15 +204,6 @@ struct PlaneMap
 	bool hasFreeSeams = false; ///< the finish has let seams go
 };
 
-/// Scales points and moves them from the frame of a rectangle to one along the axes, from the origin.
-void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points)
-{
-	for (Point2& p : points) {
-		const Point2 q = r.inFrame(p);
-		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
-	}
-}
-
 /// Lays the component out in the plane, upright and with its area unless the boundary keeps its metric.
 /// \param cut loses the seams round which the metric closes
 PlaneMap layOut(

@@ -43,8 +43,8 @@ void averageCopies(const OpenedMesh& opened, std::size_t vertexCount, std::vecto
 class DegenerateFaces
 {
 public:
-	DegenerateFaces(const SurfaceMesh& input, FlatMesh& mesh) :
-			m_input(input), m_mesh(mesh),
+	DegenerateFaces(const SurfaceMesh& input, const OpenedMesh& opened, FlatMesh& mesh) :
+			m_input(input), m_opened(opened), m_mesh(mesh),
 			m_corners(static_cast<int>(input.positions.size()), [&](const auto& add) {
 				for (const int f : mesh.vertices.indices())
 					for (const Corner c : cornersOf(f))
@@ -56,7 +56,7 @@ public:
 
 	void layOut(int face)
 	{
-		const Triangle& t = m_input.triangles[positionOf(face)];
+		const Triangle t = m_opened.withJoined(m_input.triangles[positionOf(face)]);
 		const auto at = [&](std::size_t k) { return m_input.positions[positionOf(t[k])]; };
 		const Corners corners = cornersFor(t);
 		Triangle points{-1, -1, -1};
@@ -106,6 +106,7 @@ private:
 	}
 
 	const SurfaceMesh& m_input;
+	const OpenedMesh& m_opened;
 	FlatMesh& m_mesh;
 	Adjacency<int, Corner> m_corners; // [vertex of the input]
 };
@@ -142,6 +143,33 @@ void sortByFace(std::size_t faceCount, FlatMesh& mesh)
 	sort(mesh.face);
 }
 
+/// Gives vertices that were joined the values of the one, and each face its own vertices.
+/// \pre numbers are the input's
+void separateJoined(const SurfaceMesh& input, const OpenedMesh& opened, Parametrization& map)
+{
+	for (std::size_t v = 0; v < opened.joined.size(); ++v)
+		for (std::vector<double>* values : {&map.vertexQC, &map.u, &map.targetCurvature})
+			(*values)[v] = (*values)[positionOf(opened.joined[v])];
+	FlatMesh& mesh = map.mesh;
+	for (const Corner c : IndexRange<Corner>(opened.joined.empty() ? 0 : 3 * mesh.size())) {
+		const Triangle& given = input.triangles[positionOf(mesh.face[c.face()])];
+		const Triangle joined = opened.withJoined(given);
+		const auto separate = [&](int& v) {
+			for (const Corner own : {c, c.next(), c.previous()})
+				if (joined[own.index()] == v) {
+					v = given[own.index()];
+					return;
+				}
+		};
+		int& vertex = mesh.vertices[c];
+		if (positionOf(vertex) < input.positions.size())
+			separate(vertex);
+		else // a point of the refinement, on this face or its border
+			for (int& v : mesh.source[vertex].vertex)
+				separate(v);
+	}
+}
+
 } // namespace
 
 void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametrization& map)
@@ -151,6 +179,7 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 	orientLikeInput(opened, mesh);
 	if (opened.isAsGiven()) {
 		sortByFace(input.triangles.size(), mesh);
+		separateJoined(input, opened, map);
 		return;
 	}
 	const std::size_t vertexCount = input.positions.size();
@@ -172,10 +201,11 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 			v = opened.vertex[positionOf(v)];
 	for (int& f : mesh.face)
 		f = opened.face[positionOf(f)];
-	DegenerateFaces degenerate(input, mesh);
+	DegenerateFaces degenerate(input, opened, mesh);
 	for (const int f : opened.degenerate)
 		degenerate.layOut(f);
 	sortByFace(input.triangles.size(), mesh);
+	separateJoined(input, opened, map);
 }
 
 } // namespace ricci

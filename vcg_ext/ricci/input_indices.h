@@ -10,6 +10,8 @@ namespace ricci {
 /// Gives a map of an opened mesh the indices of its input, and its triangles the input's order and orders
 /// of corners. To be called last, once nothing asks any more which triangles are glued.
 ///
+/// Vertices that were joined (OpenedMesh::joined) have the values of the one, and each face its own of them again.
+///
 /// A vertex takes the mean of its copies' distortion, weighted by the area of their faces, and the
 /// curvature and u of the vertex itself. The refinement's points at copies become the vertex. Degenerate
 /// faces become triangles of no chart: such a face lies at corners of a face with which it shares an edge,

@@ -2,6 +2,7 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/task.h"
+#include "base/tolerances.h"
 #include "charts/separate_charts.h"
 #include "flatten.h"
 #include "flatten_steps.h"
@@ -27,15 +28,19 @@ constexpr double kPoorCost = 6.0;
 /// spread of areas below these are tried: the linear model promises too much where scales differ much.
 constexpr double kSpreadsInstead[] = {0.5, 0.25};
 
-/// Whether Automatic may unfold a component: nothing but the default has been asked for that a flow of the
-/// whole component would have to give.
+/// Whether Automatic may do without a flow of a whole component: nothing but the default has been asked for that it
+/// would have to give.
+bool needsNoFlow(const Options& options)
+{
+	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
+		   goalOf(options.cones) == ConeGoal::LeastCost &&
+		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
+		   options.output == OutputTriangulation::KeepMesh && options.charts != Charts::OfTheFlow;
+}
+
 bool mayUnfold(const Component& component, const Options& options)
 {
-	return component.lengths.empty() && options.target == TargetCurvature::Automatic &&
-		   options.freeBoundary && goalOf(options.cones) == ConeGoal::LeastCost &&
-		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
-		   options.output == OutputTriangulation::KeepMesh && options.charts != Charts::OfTheFlow &&
-		   !component.hasSeam;
+	return needsNoFlow(options) && component.lengths.empty() && !component.hasSeam;
 }
 
 double totalOf(const std::optional<Parametrization>& map)
@@ -120,6 +125,33 @@ FlowPlan withCheaperHoles(
 			   : std::move(plan);
 }
 
+/// The map that a component has, or that of the flow if it costs less and needs no seam.
+Parametrization givenOrFlow(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	Parametrization given)
+{
+	Options plain = options;
+	plain.cones.onlyWhereNeeded = true;
+	auto map = attempt("the map that the mesh has stays", [&] {
+		Parametrization part = flattenToPlane(component, input, plain);
+		separateCharts(options, part);
+		return part;
+	});
+	const std::string own = "the map that the mesh has: " + costText(given);
+	if (!map)
+		return chosen(own, std::move(given));
+	given.report.iterations = map->report.iterations;
+	const bool hasSeams = map->report.seamLength > 0.0 || map->charts.size() > 1;
+	const bool isTaken = !hasSeams && costOf(*map).total() < (1.0 - kTiny) * costOf(given).total();
+	const std::string flow = "as a whole: " + costText(*map);
+	if (!isTaken)
+		return chosen(own + "; " + flow, std::move(given));
+	scaleForLeastEnergy(map->mesh); // as other charts that are kept have it
+	return chosen(flow + "; " + own, *std::move(map));
+}
+
 } // namespace
 
 MapCost costOf(const Parametrization& map)
@@ -137,6 +169,11 @@ void separateCharts(const Options& options, Parametrization& map)
 Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
+	if (options.charts == Charts::AsGiven)
+		return givenMap(component, options.turns == ChartTurns::Free);
+	if (needsNoFlow(options))
+		if (auto given = rightGivenMap(component))
+			return givenOrFlow(component, input, options, *std::move(given));
 	const bool mayBeUnfolded = mayUnfold(component, options);
 	FlowPlan plan;
 	std::optional<Parametrization> unfolded;

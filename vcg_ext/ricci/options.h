@@ -62,8 +62,10 @@ enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
 	///< that do not; the others stay as they are, and so do disks and rectangles
-	CutForRoom ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
-			   ///< the seam, see packForRoom(). A cut counts as one of an overlap
+	CutForRoom, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
+	///< the seam, see packForRoom(), unless the mesh has a map. A cut counts as one of an overlap
+	AsGiven ///< there is no flow: those of the map that the mesh has (SurfaceMesh::map) keep their shapes, and are
+			///< only turned and packed, all scaled by one factor
 };
 
 /// What is done to a map that the flow has found, which is exact on its own triangles, for the
@@ -76,6 +78,17 @@ enum class Finish {
 	LeastStretch ///< and they keep lengths as well as they can, with the two sides of each seam, and the
 				 ///< boundary, let go: least symmetric Dirichlet energy, see leastStretch(). For
 				 ///< LeastDistortion where boundary or quarter turns are prescribed
+};
+
+/// Which vertices of the mesh are one vertex of its surface although they have numbers of their own: formats that
+/// cannot share vertices, or split them for normals and texture coordinates, give each face its own. Results are for
+/// the vertices as they are given. See findSplitVertices() for the rule.
+enum class JoinSplitVertices {
+	/// Those that lie on each other along edges, where nine tenths of all sides of faces are no other face's by the
+	/// numbers of their vertices; else none, because the cuts of a mesh that shares vertices may be meant.
+	Automatic,
+	Never,
+	Always
 };
 
 /// Geometry of the plane that triangles are cut from (Definition 3.1).
@@ -91,6 +104,8 @@ struct FlowOptions
 	double epsilon = 1e-8;
 
 	Method method = Method::IntrinsicFlips;
+
+	JoinSplitVertices join = JoinSplitVertices::Automatic;
 
 	/// CommonRefinement belongs to intrinsic flips.
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
@@ -144,7 +159,7 @@ using PlaceBoxes =
 enum class ChartTurns {
 	None,    ///< as the layout leaves them
 	Quarter, ///< by right angles
-	Free ///< charts whose outline is straight lie along the axes, others in any direction
+	Free     ///< charts whose outline is straight lie along the axes, others in any direction
 };
 
 /// How the charts of a map are packed.

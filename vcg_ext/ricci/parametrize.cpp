@@ -56,6 +56,7 @@ void checkFlowOptions(const FlowOptions& options)
 	requireChoice("method", options.method, Method::Thurston);
 	requireChoice("output", options.output, OutputTriangulation::CommonRefinement);
 	requireChoice("finish", options.finish, Finish::LeastStretch);
+	requireChoice("join", options.join, JoinSplitVertices::Always);
 	if (!(options.epsilon > 0.0 && std::isfinite(options.epsilon)))
 		throw InvalidOption(InvalidOption::Epsilon, options.epsilon);
 	if (options.output == OutputTriangulation::CommonRefinement &&
@@ -214,8 +215,8 @@ void pack(const Options& options, WholeMap& whole)
 	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	if (options.charts == Charts::CutForRoom && options.normalizeUV &&
-		options.target == TargetCurvature::Automatic)
+	if (options.charts == Charts::CutForRoom && whole.opened.mesh.map.empty() &&
+		options.normalizeUV && options.target == TargetCurvature::Automatic)
 		packForRoom(map, options, turns);
 	else
 		packCharts(map, options, turns);
@@ -283,7 +284,7 @@ void checkOptions(const Options& options)
 	requireChoice("target", options.target, TargetCurvature::PlacedCones);
 	requireChoice("rounding", options.cones.rounding, ConeRounding::QuarterTurns);
 	requireChoice("holes", options.holes, Holes::ShortCapped);
-	requireChoice("charts", options.charts, Charts::CutForRoom);
+	requireChoice("charts", options.charts, Charts::AsGiven);
 	requireChoice("turns", options.turns, ChartTurns::Free);
 	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
@@ -326,16 +327,54 @@ WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const 
 	return whole;
 }
 
-Parametrization
-parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
+/// What the map that a mesh has is kept with.
+/// \throw InvalidOption NoMap
+Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 {
+	const auto isMissing = [](const MappedFace& face) {
+		return !std::isfinite(doubledArea(face.uv));
+	};
+	const auto missing = std::count_if(mesh.map.begin(), mesh.map.end(), isMissing);
+	if (missing > 0 || mesh.map.empty())
+		throw InvalidOption(
+			InvalidOption::NoMap,
+			0.0,
+			0.0,
+			mesh.map.empty() ? mesh.triangles.size() : static_cast<std::size_t>(missing));
+	Options options;
+	static_cast<PackOptions&>(options) = asked;
+	options.charts = Charts::AsGiven;
+	options.finish = Finish::None;
+	options.join = JoinSplitVertices::Always; // a chart goes on where the map does not jump
+	return options;
+}
+
+/// Scales all charts by one factor to the area of the surface.
+void scaleToSurface(FlatMesh& mesh)
+{
+	double doubled = 0.0;
+	for (const Triangle2& t : mesh.corners())
+		doubled += std::abs(doubledArea(t));
+	if (doubled > 0.0)
+		for (Point2& p : mesh.place)
+			p *= std::sqrt(2.0 * mesh.area() / doubled);
+}
+
+Parametrization
+parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& asked)
+{
+	checkOptions(asked);
+	const bool keepsMap = asked.charts == Charts::AsGiven;
+	const Options options = keepsMap ? optionsToKeep(mesh, asked) : asked;
 	WholeMap whole = chartsInPlane(mesh, input, options);
-	pack(options, whole);
 	Parametrization& map = whole.map;
+	if (keepsMap)
+		scaleToSurface(map.mesh);
+	pack(options, whole);
 	countFaults(map);
 	map.report.unequalSeams = unequalSeams(map.mesh);
 	requirePicture(options, map.report, map.mesh.size());
-	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
+	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch && mesh.map.empty())
 		note(
 			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
 													  "than on the other: flipped faces beside "

@@ -12,7 +12,7 @@
 namespace ricci {
 
 /// Values at the vertices of the mesh that some targets read. Empty where the mode has no use for
-/// them.
+/// them. Vertices that are joined (JoinSplitVertices) are selected if one of them is, and have the target of the first.
 struct VertexInput
 {
 	std::vector<char> selected;          ///< Rectangle, SelectedCones

@@ -29,7 +29,8 @@ enum class TargetUsed {
 	PlacedCones,
 	FreeBoundary,       ///< no cones; the boundary keeps its metric
 	PrescribedBoundary, ///< no cones; the boundary's curvature is in proportion to its length
-	Unfolded            ///< cut along creases, each piece with a free boundary
+	Unfolded,           ///< cut along creases, each piece with a free boundary
+	GivenMap            ///< the map that the mesh had is kept, see SurfaceMesh::map
 };
 
 /// The surface, as it was opened for the flow.
@@ -43,6 +44,10 @@ struct SurfaceReport
 	int genus = 0;
 	int boundaryLoops = 0;
 	int cappedHoles = 0; ///< boundary loops closed for the flow
+
+	int joinedEdges =
+		0; ///< edges whose faces have vertices of their own there, see JoinSplitVertices
+	int piecesApart = 0; ///< pieces of the surface that could be joined to others so, and are not
 
 	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
 	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge

@@ -301,9 +301,11 @@ void placeVertices(
 		isPlaced[positionOf(c.vertex[v])] = 1;
 	}
 	for (std::size_t f = 0; f < opened.face.size(); ++f)
-		map.triangles[positionOf(opened.face[f])] = opened.mesh.triangles[f];
+		for (std::size_t k = 0; k < 3; ++k) // a given vertex, or a copy
+			if (const int v = opened.mesh.triangles[f][k]; positionOf(v) >= mesh.positions.size())
+				map.triangles[positionOf(opened.face[f])][k] = v;
 	for (const int f : opened.degenerate) {
-		const Triangle& t = mesh.triangles[positionOf(f)];
+		const Triangle t = opened.withJoined(mesh.triangles[positionOf(f)]);
 		int known = map.pole;
 		for (const int v : t)
 			if (isPlaced[positionOf(v)])
@@ -314,6 +316,8 @@ void placeVertices(
 				isPlaced[positionOf(v)] = 1;
 			}
 	}
+	for (std::size_t v = 0; v < opened.joined.size(); ++v)
+		map.positions[v] = map.positions[positionOf(opened.joined[v])];
 }
 
 } // namespace
@@ -323,7 +327,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	if (!mesh.lengths.empty())
 		throw InvalidOption(InvalidOption::WithoutPositions);
 	std::vector<std::string> notes;
-	const OpenedMesh opened = openMesh(mesh, notes);
+	const OpenedMesh opened = openMesh(mesh, notes, OneSidedCut::Shortest, options.join);
 	const std::vector<Component> components = splitIntoComponents(opened);
 	const Component& c = components.front();
 	if (components.size() > 1)
@@ -336,6 +340,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	const SurfaceMesh disk = punctured(c, pole);
 	Options flow;
 	flow.epsilon = options.epsilon;
+	flow.join = JoinSplitVertices::Never;
 	flow.cones.onlyWhereNeeded = true;
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;

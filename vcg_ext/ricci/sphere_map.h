@@ -44,7 +44,7 @@ struct SphereMap
 ///
 /// Vertices that only faces without area use (see OpenedMesh) lie where another corner of such a face
 /// does, or else at the pole.
-/// \param options only epsilon is used; the flow has intrinsic flips
+/// \param options only epsilon and join are used; the flow has intrinsic flips
 /// \throw InvalidMesh, InvalidOption (another topology), NotConverged, SolverFailed, TooLarge, Stopped
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options);
 

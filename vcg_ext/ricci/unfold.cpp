@@ -7,7 +7,7 @@
 #include "base/task.h"
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
-#include "mesh/flow_domain.h"
+#include "flatten_steps.h"
 #include "mesh/opened_mesh.h"
 #include "mesh/sides.h"
 #include "whole_map.h"
@@ -63,26 +63,6 @@ std::vector<Component> pieces(const Component& component, const Creases& creases
 	return pieces;
 }
 
-/// What the triangles of the map leave of a full turn round a vertex inside, and of half a turn on the
-/// boundary.
-/// \return [vertex]
-std::vector<double> curvatureOf(const FlatMesh& map, const VertexArray<char>& isBoundary)
-{
-	std::vector<double> curvature;
-	for (const char isOn : isBoundary)
-		curvature.push_back(isOn ? kPi : 2.0 * kPi);
-	for (const int f : map.points.indices())
-		for (const Corner c : cornersOf(f)) {
-			const Point2 a = map.at(c.next()) - map.at(c);
-			const Point2 b = map.at(c.next().next()) - map.at(c);
-			curvature[positionOf(map.vertices[c])] -= std::atan2(std::abs(cross(a, b)), dot(a, b));
-		}
-	for (const Vertex v : isBoundary.indices())
-		if (double& k = curvature[positionOf(v)]; !isBoundary[v] && std::abs(k) <= kConeCurvature)
-			k = 0.0;
-	return curvature;
-}
-
 /// The pieces mapped by themselves, in the component's numbers.
 Parametrization
 mapsOf(const std::vector<Component>& pieces, const Component& component, const Options& options)
@@ -117,31 +97,20 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	separateCharts(ofPieces, map);
 	joinCharts(map);
 	map.notes.clear();
-	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
-	map.targetCurvature = curvatureOf(map.mesh, topology.boundary);
 	Report report;
-	report.components = 1;
-	report.genus = topology.type.genus;
-	report.boundaryLoops = topology.type.boundaryLoops;
-	report.eulerCharacteristic = topology.type.eulerCharacteristic();
 	static_cast<FlowReport&>(report) = std::move(map.report);
 	for (FlowState& state : report.flowStates)
 		state.component = 0;
 	report.targetUsed = TargetUsed::Unfolded;
 	report.choice.clear();
 	report.expectedSpread.reset();
-	report.cones = 0;
-	for (const Vertex v : topology.boundary.indices())
-		report.cones += !topology.boundary[v] && map.targetCurvature[positionOf(v)] != 0.0;
-	if (topology.type.isClosed()) { // the boundaries are the creases' alone
-		report.boundaryRatioMin.reset();
-		report.boundaryRatioMax.reset();
-	}
 	report.finishMoved = map.report.finishMoved;
-	const Seams seam = seams(map.mesh);
-	report.seamEdges = static_cast<int>(seam.edges.size());
-	report.seamLength = seam.length;
 	map.report = std::move(report);
+	describeByMap(component, map);
+	if (map.report.boundaryLoops == 0) { // the boundaries are the creases' alone
+		map.report.boundaryRatioMin.reset();
+		map.report.boundaryRatioMax.reset();
+	}
 	return map;
 }
 

@@ -178,7 +178,7 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 	advance(0.0, "Checking the mesh");
 	WholeMap whole;
 	Parametrization& map = whole.map;
-	whole.opened = openMesh(mesh, map.notes, cut);
+	whole.opened = openMesh(mesh, map.notes, cut, options.join);
 	const OpenedMesh& opened = whole.opened;
 	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
@@ -189,12 +189,16 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 		options.output == OutputTriangulation::CommonRefinement);
 	logLines(map.notes);
 	whole.values = input;
+	for (std::size_t v = 0; v < opened.joined.size() && !input.selected.empty(); ++v)
+		whole.values.selected[positionOf(opened.joined[v])] |= input.selected[v];
 	extendToCopies(opened, whole.values.selected);
 	extendToCopies(opened, whole.values.targetCurvature);
 	map.mesh.source = verticesOf(opened.mesh.positions.size());
 	map.u.assign(opened.mesh.positions.size(), 0.0);
 	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
 	Report& report = map.report;
+	report.joinedEdges = opened.joinedEdges;
+	report.piecesApart = opened.piecesApart;
 	report.cutNonmanifoldEdges = opened.cutEdges;
 	report.splitVertices = opened.splitVertices;
 	report.duplicateFaces = opened.duplicateFaces;

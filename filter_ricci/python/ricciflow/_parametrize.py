@@ -90,7 +90,8 @@ class Parametrization:
 
     def save(self, path):
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture has
-        drawn. What was in the file that the mesh is from stays; a PLY file gets the quality too."""
+        drawn. What else was in the file that the mesh is from stays. A mesh of a MeshSet is written by
+        PyMeshLab where the path ends in .ply or .obj."""
         from . import files
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() not in files.WRITES:
@@ -256,6 +257,8 @@ def _solve(function, mesh, faces, progress, keywords, parameters):
     else:
         given = _loading.given(mesh, faces)
         with_keywords(given, **keywords, parameters=parameters)
+        if given.file is not None and given.file.split:
+            parameters.setdefault("join_vertices", "Always")
         outputs, log, messages = run_arrays(number, given, parameters, progress)
         result = kind(outputs, log, messages, given.name, given.file,
                       parameters.get("carry_texture", ""))

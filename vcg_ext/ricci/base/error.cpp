@@ -135,6 +135,9 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::NotASphere:
 		return "The map to the sphere takes a closed surface of genus 0, but the surface is " +
 			   e.surface.name();
+	case InvalidOption::NoMap:
+		return "the map that is to be kept has no coordinates for " + std::to_string(e.count) +
+			   (e.count == 1 ? " face" : " faces");
 	case InvalidOption::CoverTooLarge:
 		return number(e.value) + " rings of the universal cover would need more than " +
 			   std::to_string(e.count) + " faces";

@@ -79,6 +79,17 @@ constexpr double kMinHeight = 0x1p-21, kMinFloatSteps = 4.0, kWantedHeights = 2.
 /// Formats of text give coordinates in the unit square with six decimals.
 constexpr double kTextStep = 1e-6;
 
+/// Texture coordinates of two faces that differ no more, as a share of the extent of all or in one picture of side 1,
+/// are equal.
+constexpr double kSameCoordinate = 1e-6;
+
+/// A triangle whose height is a smaller share of a side is too thin to have a normal: its corners are rounded in files
+/// to about 1e-6 of their size.
+constexpr double kThinTriangle = 1e-4;
+
+/// Radians: faces at an edge whose angles about it differ no more lie on one another.
+constexpr double kSameAngle = 1e-6;
+
 /// Room in the box of a chart of a few triangles, as a share of the square that holds all charts, for
 /// triangles of those heights, in six decimals too. Sides shorter than kThinSide times the room get it.
 constexpr double kBoxRoom = 0x1p-16, kThinSide = 4.0;

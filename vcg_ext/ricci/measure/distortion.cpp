@@ -296,9 +296,9 @@ std::vector<int> unseenTriangles(const FlatMesh& mesh)
 	return unseen;
 }
 
-double stretchEnergy(const FlatMesh& mesh)
+StretchIntegrals stretchIntegrals(const FlatMesh& mesh)
 {
-	double forth = 0.0, back = 0.0, total = 0.0;
+	StretchIntegrals sum;
 	const std::vector<int> unseen = unseenTriangles(mesh);
 	auto next = unseen.begin();
 	for (const int f : mesh.points.indices()) {
@@ -307,11 +307,17 @@ double stretchEnergy(const FlatMesh& mesh)
 			continue;
 		}
 		const auto [ahead, behind] = mesh.stretch(f);
-		forth += ahead;
-		back += behind;
+		sum.forth += ahead;
+		sum.back += behind;
 		if (behind > 0.0)
-			total += euclideanArea(mesh.lengths[f]);
+			sum.area += euclideanArea(mesh.lengths[f]);
 	}
+	return sum;
+}
+
+double stretchEnergy(const FlatMesh& mesh)
+{
+	const auto [forth, back, total] = stretchIntegrals(mesh);
 	if (!(back < kInfinity))
 		return back;
 	return total > 0.0 ? energyAtBestScale(forth, back, total) : 4.0;

@@ -69,6 +69,7 @@ void numberBreadthFirst(Component& component)
 	reorder(faces, component.lengths);
 	reorder(faces, component.diagonal);
 	reorder(faces, component.hole);
+	reorder(faces, component.map);
 }
 
 } // namespace
@@ -100,6 +101,12 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			c.lengths.push_back(inOrder(mesh.lengths[positionOf(f)], opened.reversed[f]));
 		if (!mesh.diagonal.empty())
 			c.diagonal.push_back(inOrder(mesh.diagonal[positionOf(f)], opened.reversed[f]));
+		if (!mesh.map.empty()) {
+			const Triangle2& uv = mesh.map[positionOf(f)].uv;
+			const Face own(c.face.size() - 1);
+			c.map.push_back(
+				{uv[c.inputCorner(own, 0)], uv[c.inputCorner(own, 1)], uv[c.inputCorner(own, 2)]});
+		}
 		if (!opened.hole.empty())
 			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
 	}

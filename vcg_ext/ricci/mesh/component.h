@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder mesh: triangles and half-edges, opening at non-manifold edges and chosen seams, holes, creases, normal
-// coordinates. No curvature, and no place in the plane.
+// The folder mesh: triangles and half-edges, vertices that are split, opening at non-manifold edges and chosen
+// seams, holes, creases, normal coordinates. No curvature, and no place in the plane.
 #ifndef RICCI_COMPONENT_H
 #define RICCI_COMPONENT_H
 
@@ -22,10 +22,11 @@ struct Component
 	VertexArray<Point3> positions;
 	std::vector<Triangle> triangles; ///< [face] numbers of the component's vertices, coherent order
 	std::vector<std::array<double, 3>>
-		lengths;          ///< [face] of the sides of these triangles, see SurfaceMesh; may be empty
-	SideMarks diagonal;   ///< of these triangles, see SurfaceMesh; may be empty
-	SideMarks hole;       ///< of these triangles, see OpenedMesh; may be empty
-	bool hasSeam = false; ///< see OpenedMesh
+		lengths;        ///< [face] of the sides of these triangles, see SurfaceMesh; may be empty
+	SideMarks diagonal; ///< of these triangles, see SurfaceMesh; may be empty
+	SideMarks hole;     ///< of these triangles, see OpenedMesh; may be empty
+	std::vector<Triangle2> map; ///< of these triangles, see SurfaceMesh; may be empty
+	bool hasSeam = false;       ///< see OpenedMesh
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face_gluing.h"
 
-#include "../base/graphs.h"
 #include "../base/numbers.h"
+#include "../base/tolerances.h"
 #include "sides.h"
 
 #include <algorithm>
@@ -16,13 +16,6 @@ namespace {
 
 /// Edges with more sides than this pair each only with the kNearest nearest to its continuation.
 constexpr std::size_t kAllPairs = 64, kNearest = 8;
-
-/// Sides that meet at an edge with more than two.
-struct Page
-{
-	Corner side;
-	double angle; // of the triangle about the edge, in [-pi, pi]
-};
 
 /// Two sides that could be glued.
 struct Candidate
@@ -42,26 +35,6 @@ Point3 normalized(const Point3& p)
 {
 	const double size = length(p);
 	return size > 0.0 ? p / size : p;
-}
-
-/// The pages of an edge. Equal triangles have the same angle, bit for bit; one without area takes that
-/// of the first.
-std::vector<Page> pagesOf(
-	const Array<Point3>& positions, const Array<Triangle>& triangles, ItemRange<const Corner> sides)
-{
-	const auto [a, b] = std::minmax({triangles[sides[0]], triangles[sides[0].next()]});
-	const Point3 &low = positions[a], &high = positions[b];
-	const Point3 axis = normalized(high - low);
-	std::vector<Page> pages;
-	Point3 first{0, 0, 0};
-	for (const Corner side : sides) {
-		const Point3 arm = normalized(positions[triangles[side.previous()]] - low);
-		const Point3 away = arm - dot(arm, axis) * axis;
-		if (dot(first, first) == 0.0)
-			first = away;
-		pages.push_back({side, std::atan2(dot(cross(first, away), axis), dot(first, away))});
-	}
-	return pages;
 }
 
 /// 0 where one page goes straight on in the other, pi where both lie on each other.
@@ -314,14 +287,37 @@ private:
 
 } // namespace
 
+std::vector<Page> pagesOf(
+	const Array<Point3>& positions, const Array<Triangle>& triangles, ItemRange<const Corner> sides)
+{
+	const auto [a, b] = std::minmax({triangles[sides[0]], triangles[sides[0].next()]});
+	const Point3 &low = positions[a], &high = positions[b];
+	const Point3 axis = normalized(high - low);
+	std::vector<Page> pages;
+	Point3 first{0, 0, 0};
+	for (const Corner side : sides) {
+		const Point3 arm = normalized(positions[triangles[side.previous()]] - low);
+		const Point3 away = arm - dot(arm, axis) * axis;
+		if (dot(first, first) == 0.0)
+			first = away;
+		pages.push_back(
+			{side,
+			 std::atan2(dot(cross(first, away), axis), dot(first, away)),
+			 dot(away, away) < kThinTriangle * kThinTriangle});
+	}
+	return pages;
+}
+
 FaceGluing glueFaces(const Array<Point3>& positions, const Array<Triangle>& triangles)
 {
 	FaceGluing gluing;
 	gluing.glued.assign(3 * triangles.size(), Corner());
 	const Sides sides(triangles.values());
 	sides.forEdges([&](const auto& edge) {
-		if (edge.size() == 1)
+		if (edge.size() == 1) {
+			gluing.alone.push_back(edge[0]);
 			return;
+		}
 		const Corner a = edge[0], b = edge[1];
 		if (edge.size() == 2 && triangles[a.previous()] != triangles[b.previous()]) {
 			gluing.glued[a] = b;

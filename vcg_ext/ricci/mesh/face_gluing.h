@@ -2,7 +2,10 @@
 #ifndef RICCI_FACE_GLUING_H
 #define RICCI_FACE_GLUING_H
 
+#include "../base/graphs.h"
 #include "surface_mesh.h"
+
+#include <vector>
 
 namespace ricci {
 
@@ -10,9 +13,26 @@ namespace ricci {
 struct FaceGluing
 {
 	CornerArray<Corner> glued; ///< [side] the side that is glued to it; none on a boundary
+	std::vector<Corner> alone; ///< sides that no other triangle has
 	int cutEdges = 0;          ///< edges with more than two sides, or with two of equal vertices
 	int duplicateFaces = 0;    ///< triangles with the vertices of one before them
 };
+
+/// A side of several that meet at an edge.
+struct Page
+{
+	Corner side;
+	double
+		angle; ///< of the triangle about the edge, in [-pi, pi]; that of the first where it has no area
+	bool isThin; ///< rounding may have turned it about the edge (kThinTriangle)
+};
+
+/// The pages of an edge, whose ends are those of its first side. Equal triangles have the same angle, bit for bit.
+/// \param sides have their ends at the same two places
+std::vector<Page> pagesOf(
+	const Array<Point3>& positions,
+	const Array<Triangle>& triangles,
+	ItemRange<const Corner> sides);
 
 /// Glues triangles to surfaces in which no edge has more than two sides.
 ///

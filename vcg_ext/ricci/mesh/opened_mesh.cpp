@@ -5,7 +5,9 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "face_gluing.h"
+#include "map_jumps.h"
 #include "sides.h"
+#include "split_vertices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +21,6 @@ namespace {
 
 /// One-sided components that so many loops have not made two-sided are cut wherever they need it.
 constexpr int kMaxOneSidedCuts = 64;
-
-/// "1 face was", "12 faces were".
-std::string counted(std::size_t n, const std::string& one, const std::string& many)
-{
-	return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 /// \throw InvalidMesh if \p count is not 0
 void requireNone(std::size_t count, InvalidMesh::Problem problem)
@@ -41,6 +37,7 @@ void checkElements(const SurfaceMesh& mesh)
 	}
 	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
 	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
+	requireLength("map", mesh.map.size(), mesh.triangles.size());
 	const auto vertices = static_cast<int>(mesh.positions.size());
 	std::size_t damaged = 0, notFinite = 0, huge = 0;
 	for (const Triangle& t : mesh.triangles)
@@ -69,15 +66,7 @@ class Opening
 public:
 	explicit Opening(const SurfaceMesh& input) : m_input(input), m_positions(input.positions)
 	{
-		for (std::size_t f = 0; f < input.triangles.size(); ++f) {
-			const Triangle& t = input.triangles[f];
-			if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-				m_opened.degenerate.push_back(static_cast<int>(f));
-			else {
-				m_opened.face.push_back(static_cast<int>(f));
-				m_triangles.push_back(t);
-			}
-		}
+		takeFaces();
 	}
 
 	/// \throw InvalidMesh UnequalSides
@@ -91,9 +80,12 @@ public:
 		requireNone(unequal, InvalidMesh::UnequalSides);
 	}
 
-	void cutEdges()
+	void cutEdges(JoinSplitVertices join)
 	{
 		FaceGluing gluing = glueFaces(m_positions, m_triangles);
+		const bool mayJoin = join != JoinSplitVertices::Never && m_input.lengths.empty();
+		if (mayJoin && joinVertices(join, gluing))
+			gluing = glueFaces(m_positions, m_triangles);
 		m_glued = std::move(gluing.glued);
 		m_opened.cutEdges = gluing.cutEdges;
 		m_opened.duplicateFaces = gluing.duplicateFaces;
@@ -106,17 +98,29 @@ public:
 	/// \pre cutEdges()
 	void openSeams()
 	{
-		if (m_input.seam.empty())
+		if (m_input.seam.empty() && m_input.map.empty())
 			return;
 		markHoles();
 		m_across.assign(m_glued.size(), Corner());
+		const auto inInput = [&](Corner c) {
+			return Corner(m_opened.face[positionOf(c.face())], static_cast<int>(c.index()));
+		};
 		const auto isMarked = [&](Corner side) {
-			return m_input.seam[positionOf(m_opened.face[positionOf(side.face())])][side.index()] !=
-				   0;
+			const Corner own = inInput(side);
+			return !m_input.seam.empty() && m_input.seam[positionOf(own.face())][own.index()] != 0;
+		};
+		const MapJumps jumps(m_input.map);
+		const auto mapJumps = [&](Corner a, Corner b) {
+			const bool sameWay = m_triangles[a] == m_triangles[b];
+			return !m_input.map.empty() &&
+				   (jumps(inInput(a), inInput(sameWay ? b : b.next())) ||
+					jumps(inInput(a.next()), inInput(sameWay ? b.next() : b)));
 		};
 		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
 			bool opens = false;
-			if (std::any_of(edge.begin(), edge.end(), isMarked))
+			if (std::any_of(edge.begin(), edge.end(), [&](Corner side) {
+					return isMarked(side) || mapJumps(edge[0], side);
+				}))
 				for (const Corner side : edge)
 					opens = open(side) || opens;
 			m_opened.seamEdges += opens;
@@ -200,16 +204,58 @@ public:
 		m_opened.reversed = FaceArray<char>(std::move(m_partition.reversed.values()));
 		m_opened.componentCount = m_partition.componentCount;
 		m_opened.mesh.absent = m_input.absent;
-		if (!m_input.diagonal.empty())
-			for (const int f : m_opened.face)
+		for (const int f : m_opened.face) {
+			if (!m_input.diagonal.empty())
 				m_opened.mesh.diagonal.push_back(m_input.diagonal[positionOf(f)]);
-		if (!m_input.lengths.empty())
-			for (const int f : m_opened.face)
+			if (!m_input.lengths.empty())
 				m_opened.mesh.lengths.push_back(m_input.lengths[positionOf(f)]);
+			if (!m_input.map.empty())
+				m_opened.mesh.map.push_back(m_input.map[positionOf(f)]);
+		}
 		return std::move(m_opened);
 	}
 
 private:
+	/// Divides the faces of the input into triangles and degenerate ones.
+	void takeFaces()
+	{
+		m_opened.degenerate.clear();
+		m_opened.face.clear();
+		m_triangles.clear();
+		for (std::size_t f = 0; f < m_input.triangles.size(); ++f) {
+			const Triangle t = m_opened.withJoined(m_input.triangles[f]);
+			if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+				m_opened.degenerate.push_back(static_cast<int>(f));
+			else {
+				m_opened.face.push_back(static_cast<int>(f));
+				m_triangles.push_back(t);
+			}
+		}
+	}
+
+	/// Joins vertices that are split, or counts what that would join.
+	/// \return whether it has joined any
+	bool joinVertices(JoinSplitVertices join, const FaceGluing& gluing)
+	{
+		SplitVertices split = findSplitVertices(m_positions, m_triangles, gluing.alone);
+		if (split.joined.empty())
+			return false;
+		if (join == JoinSplitVertices::Always ||
+			10 * gluing.alone.size() >= 9 * positionOf(gluing.glued.size())) {
+			m_opened.joinedEdges = static_cast<int>(split.joined.size());
+			m_opened.joined = std::move(split.vertex);
+			takeFaces();
+			return true;
+		}
+		DisjointSets pieces(m_triangles.size());
+		for (const Corner side : gluing.glued.indices())
+			if (gluing.glued[side].isValid())
+				pieces.merge(side.face(), gluing.glued[side].face());
+		for (const auto& [a, b] : split.joined)
+			m_opened.piecesApart += pieces.merge(a.face(), b.face());
+		return false;
+	}
+
 	/// The fans of glued corners.
 	DisjointSetsOf<Corner> fansOf(const CornerArray<Corner>& glued) const
 	{
@@ -455,64 +501,6 @@ private:
 	OpenedMesh m_opened;
 };
 
-void describe(const OpenedMesh& opened, const SurfaceMesh& mesh, std::vector<std::string>& notes)
-{
-	std::vector<char> isUsed(mesh.positions.size(), 0);
-	for (const Triangle& t : mesh.triangles)
-		for (const int v : t)
-			isUsed[positionOf(v)] = 1;
-	const auto note = [&](std::ptrdiff_t n,
-						  const std::string& one,
-						  const std::string& many,
-						  const std::string& rest) {
-		if (n > 0)
-			notes.push_back(counted(static_cast<std::size_t>(n), one, many) + rest);
-	};
-	const std::ptrdiff_t unused =
-		std::count(isUsed.begin(), isUsed.end(), 0) - static_cast<std::ptrdiff_t>(mesh.absent);
-	note(
-		unused,
-		"vertex belongs to no face and is",
-		"vertices belong to no face and are",
-		" left out.");
-	note(
-		std::count(opened.reversed.begin(), opened.reversed.end(), 1),
-		"face was",
-		"faces were",
-		" oriented against the rest of the surface and counted as inverted.");
-	note(
-		opened.duplicateFaces,
-		"face has the vertices of another and is a sheet of its",
-		"faces have the vertices of another and are sheets of their",
-		" own.");
-	note(
-		opened.cutEdges,
-		"edge of more than two faces was",
-		"edges of more than two faces were",
-		" cut: sheets go on where they are smoothest.");
-	note(opened.seamEdges, "edge is a seam", "edges are seams", ", as chosen.");
-	note(
-		opened.seamEdgesAdded,
-		"seam of one edge alone goes on along one more",
-		"seams of one edge alone go on along one more",
-		": without it, nothing would come apart there.");
-	note(
-		opened.oneSidedComponents,
-		"one-sided component was",
-		"one-sided components were",
-		" cut along short one-sided loops.");
-	note(
-		opened.splitVertices,
-		"vertex has",
-		"vertices have",
-		" more than one fan of faces, each with a place of its own in the map.");
-	note(
-		static_cast<std::ptrdiff_t>(opened.degenerate.size()),
-		"face has no area and is drawn as the line or the point that it is",
-		"faces have no area and are drawn as the lines or the points that they are",
-		".");
-}
-
 } // namespace
 
 void requireLength(const char* array, std::size_t length, std::size_t wanted)
@@ -521,17 +509,21 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted)
 		throw InvalidMesh(array, length, wanted);
 }
 
-OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes, OneSidedCut cut)
+OpenedMesh openMesh(
+	const SurfaceMesh& mesh,
+	std::vector<std::string>& notes,
+	OneSidedCut cut,
+	JoinSplitVertices join)
 {
 	checkElements(mesh);
 	Opening opening(mesh);
-	opening.cutEdges();
+	opening.cutEdges(join);
 	opening.requireEqualSides();
 	opening.openSeams();
 	opening.cutOneSidedComponents(cut);
 	opening.leaveOutFlatComponents();
 	OpenedMesh opened = opening.result();
-	describe(opened, mesh, notes);
+	describe(mesh, opened, notes);
 	return opened;
 }
 

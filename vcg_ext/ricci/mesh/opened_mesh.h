@@ -2,6 +2,7 @@
 #ifndef RICCI_OPENED_MESH_H
 #define RICCI_OPENED_MESH_H
 
+#include "../options.h"
 #include "elements.h"
 #include "face_gluing.h"
 #include "surface_mesh.h"
@@ -20,7 +21,9 @@ struct OpenedMesh
 	/// At most two triangles at an edge, one fan at a vertex, two-sided components. An edge is
 	/// determined by its vertices.
 	SurfaceMesh mesh;
-	std::vector<int> vertex;     ///< [vertex of mesh] number in the input
+	std::vector<int> vertex; ///< [vertex of mesh] number in the input
+	/// [vertex of the input] the vertex that it is one with, which has its faces; empty where none are joined
+	std::vector<int> joined;
 	std::vector<int> face;       ///< [face of mesh] number in the input
 	std::vector<int> degenerate; ///< faces of the input that are left out
 
@@ -34,6 +37,10 @@ struct OpenedMesh
 	SideMarks hole;
 	/// [component] 1 where a seam that was opened is on the boundary. Empty where none were.
 	std::vector<char> hasSeam;
+
+	/// Edges whose faces had vertices of their own there, joined; and by how many pieces the surface would be fewer if
+	/// those that are left were.
+	int joinedEdges = 0, piecesApart = 0;
 
 	int cutEdges = 0;       ///< edges with more than two faces, or with two of the same vertices
 	int splitVertices = 0;  ///< vertices of the input that have copies, also without the seams
@@ -51,15 +58,25 @@ struct OpenedMesh
 			!vertex.empty() && vertex.back() + 1 != static_cast<int>(vertex.size());
 		return !hasCopies && degenerate.empty();
 	}
+
+	/// A triangle of the input with vertices that have faces.
+	Triangle withJoined(const Triangle& t) const
+	{
+		return joined.empty() ? t
+							  : Triangle{
+									joined[positionOf(t[0])],
+									joined[positionOf(t[1])],
+									joined[positionOf(t[2])]};
+	}
 };
 
 /// \throw InvalidMesh ArrayLength unless an array has no entries or as many as are wanted
 void requireLength(const char* array, std::size_t length, std::size_t wanted);
 
-/// Cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
+/// Joins vertices that are split (findSplitVertices()) as \p join says, then cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
 /// [Gueziec et al. 2001]): edges with more than two faces by glueFaces(), vertices with more than one
 /// fan into one copy for each, one-sided components as \p cut says. Before the last of
-/// these, all sheets are opened along SurfaceMesh::seam. A seam of one edge that touches neither
+/// these, all sheets are opened along SurfaceMesh::seam and the jumps of SurfaceMesh::map. A seam of one edge that touches neither
 /// another nor a boundary goes on along the edge that leads straightest on: else both its sides would
 /// have the same two vertices, and lie on each other in the plane. Left out are faces that use a
 /// vertex twice, and components that have no area. What was done is told in \p notes.
@@ -69,7 +86,11 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted);
 OpenedMesh openMesh(
 	const SurfaceMesh& mesh,
 	std::vector<std::string>& notes,
-	OneSidedCut cut = OneSidedCut::Shortest);
+	OneSidedCut cut = OneSidedCut::Shortest,
+	JoinSplitVertices join = JoinSplitVertices::Never);
+
+/// Adds sentences on what openMesh() has done.
+void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std::string>& notes);
 
 } // namespace ricci
 

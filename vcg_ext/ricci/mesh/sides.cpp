@@ -2,6 +2,7 @@
 #include "sides.h"
 
 #include "../base/numbers.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,17 +96,13 @@ Sides::Sides(const std::vector<Triangle>& triangles)
 
 namespace {
 
-/// A triangle whose height is a smaller share of its longest side is too thin to have a normal: its
-/// corners are rounded in files to about 1e-6 of their size.
-constexpr double kMinHeight = 1e-4;
-
 /// Of length 1; 0 where a triangle is too thin.
 Point3 normal(const Point3& a, const Point3& b, const Point3& c)
 {
 	const Point3 n = cross(b - a, c - a);
 	const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
 	const double size = length(n);
-	if (!(size > kMinHeight * longest * longest))
+	if (!(size > kThinTriangle * longest * longest))
 		return {0.0, 0.0, 0.0};
 	return n / size;
 }

@@ -17,6 +17,13 @@ using Triangle = std::array<int, 3>;
 /// [face][k] 1 where the side from corner k is marked. May be empty, else one entry for each triangle.
 using SideMarks = std::vector<std::array<char, 3>>;
 
+/// Where a map that a mesh has puts a face.
+struct MappedFace
+{
+	Triangle2 uv{};  ///< of its corners
+	int picture = 0; ///< in which they lie
+};
+
 /// A triangle soup with shared vertices, as a caller hands it over. The flow itself sees lengths
 /// only; positions are read for the corners of a rectangle, edge swaps, caps, creases, areas and distortion.
 struct SurfaceMesh
@@ -26,6 +33,9 @@ struct SurfaceMesh
 	SideMarks diagonal = {};         ///< sides inside polygons that were cut into triangles
 	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
 	SideMarks seam = {}; ///< where the caller wants seams; one face of an edge is enough
+	/// [face] A map that the mesh has; may be empty. Edges at which it jumps (MapJumps) are seams. Where its charts
+	/// neither flip nor overlap, Automatic takes no map with further seams or of more objective than theirs.
+	std::vector<MappedFace> map = {};
 
 	/// [triangle] Lengths of the sides of a surface that is given by them: positions then only tell how many vertices
 	/// there are. Both sides of an edge have one length. Empty: they are distances of positions.

@@ -3,6 +3,7 @@
 
 #include "../base/graphs.h"
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../mesh/sides.h"
 
 #include <algorithm>

@@ -11,9 +11,6 @@
 
 namespace ricci {
 
-/// Coordinates of two wedges in one picture, of side 1, that differ no more are equal.
-constexpr double kSameCoordinate = 1e-6;
-
 /// [face] a number that the faces of one chart of the old map share: those that are joined by edges with
 /// the same picture and coordinates on both sides.
 std::vector<int> oldCharts(const std::vector<TexturedFace>& faces);

@@ -52,6 +52,10 @@ public:
 	/// ricci_seams.h. Faces behind its end have none but those that the flow finds.
 	typedef ricci::SideMarks SideMarks;
 
+	/// [face] its wedge texture coordinates, see ricci::SurfaceMesh::map and ReadMap(). All faces of the mesh's
+	/// vector have one, or none has.
+	typedef std::vector<ricci::MappedFace> TextureMap;
+
 	typedef ricci::Options Params;
 	typedef ricci::HyperbolicOptions HyperbolicParams;
 
@@ -62,12 +66,15 @@ public:
 	/// Computes; \p m is only read: positions as PlaceOf() has them, faces, selected vertices (Rectangle,
 	/// SelectedCones), vertex quality as curvature in radians (Prescribed).
 	/// \throw what ricci::parametrizeEuclidean() does, and ricci::InvalidMesh DamagedFaces
-	static Result
-	Compute(const MeshType& m, const Params& par, const SideMarks& seams = SideMarks())
+	static Result Compute(
+		const MeshType& m,
+		const Params& par,
+		const SideMarks& seams = SideMarks(),
+		const TextureMap& map = TextureMap())
 	{
 		return Run(
 			m,
-			seams,
+			{seams, map},
 			par.target == ricci::TargetCurvature::Rectangle ||
 				par.target == ricci::TargetCurvature::SelectedCones,
 			par.target == ricci::TargetCurvature::Prescribed,
@@ -80,11 +87,14 @@ public:
 	/// [0,1]^2; with several components each has a disk of its own, side by side.
 	/// \throw what ricci::parametrizeHyperbolic() does, and ricci::InvalidMesh DamagedFaces
 	static Result ComputeHyperbolic(
-		const MeshType& m, const HyperbolicParams& par, const SideMarks& seams = SideMarks())
+		const MeshType& m,
+		const HyperbolicParams& par,
+		const SideMarks& seams = SideMarks(),
+		const TextureMap& map = TextureMap())
 	{
 		return Run(
 			m,
-			seams,
+			{seams, map},
 			par.target == ricci::HyperbolicTarget::SelectedCones,
 			par.target == ricci::HyperbolicTarget::Prescribed,
 			[&](const ricci::SurfaceMesh& mesh, const ricci::VertexInput& input) {
@@ -186,7 +196,29 @@ public:
 	{
 		std::vector<int> faceIndex;
 		const ricci::DefaultFloatingPoint defaultEnvironment;
-		return ricci::mapToSphere(ReadSurface(m, faceIndex), par);
+		return ricci::mapToSphere(ReadSurface(m, faceIndex, {{}, {}}), par);
+	}
+
+	/// The texture coordinates of the mesh: of wedges, or else of vertices. Empty where it has none.
+	static TextureMap ReadMap(const MeshType& m)
+	{
+		TextureMap map;
+		const bool hasWedges = HasPerWedgeTexCoord(m);
+		if (!hasWedges && !HasPerVertexTexCoord(m))
+			return map;
+		map.resize(m.face.size());
+		for (size_t f = 0; f < m.face.size(); ++f) {
+			const FaceType& face = m.face[f];
+			if (face.IsD() || (!hasWedges && !HasItsVertices(m, face)))
+				continue;
+			for (int k = 0; k < 3; ++k)
+				map[f].uv[size_t(k)] =
+					hasWedges
+						? ricci::Point2{double(face.cWT(k).U()), double(face.cWT(k).V())}
+						: ricci::Point2{double(face.cV(k)->cT().U()), double(face.cV(k)->cT().V())};
+			map[f].picture = hasWedges ? face.cWT(0).N() : face.cV(0)->cT().N();
+		}
+		return map;
 	}
 
 	/// Where a vertex is seen, up to a translation: the matrix Tr that some types of meshes have is applied.
@@ -229,18 +261,25 @@ private:
 		return p;
 	}
 
+	/// What a mesh is opened by.
+	struct Openings
+	{
+		const SideMarks& seams;
+		const TextureMap& map;
+	};
+
 	/// What \p parametrize gives, with the faces' indices in the mesh.
 	template<class Parametrize>
 	static Result
 	Run(const MeshType& m,
-		const SideMarks& seams,
+		const Openings& openings,
 		bool readSelection,
 		bool readQuality,
 		Parametrize parametrize)
 	{
 		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex;
-		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, openings);
 		Result r = parametrize(mesh, ReadVertexInput(m, readSelection, readQuality));
 		for (int& f : r.mesh.face)
 			f = faceIndex[size_t(f)];
@@ -370,9 +409,10 @@ private:
 	}
 
 	/// \param faceIndex [face that is read] its index in m.face
-	static ricci::SurfaceMesh ReadSurface(
-		const MeshType& m, std::vector<int>& faceIndex, const SideMarks& seams = SideMarks())
+	static ricci::SurfaceMesh
+	ReadSurface(const MeshType& m, std::vector<int>& faceIndex, const Openings& openings)
 	{
+		const SideMarks& seams = openings.seams;
 		ricci::SurfaceMesh mesh;
 		mesh.positions.resize(m.vert.size());
 		for (size_t v = 0; v < m.vert.size(); ++v)
@@ -401,6 +441,8 @@ private:
 			mesh.diagonal.push_back(diagonal);
 			if (!seams.empty())
 				mesh.seam.push_back(f < seams.size() ? seams[f] : std::array<char, 3>{0, 0, 0});
+			if (!openings.map.empty())
+				mesh.map.push_back(openings.map[f]);
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)

@@ -6,13 +6,11 @@
 #ifndef __VCGLIB_RICCI_SEAMS
 #define __VCGLIB_RICCI_SEAMS
 
+#include <ricci/mesh/map_jumps.h>
 #include <ricci/mesh/sides.h>
-#include <ricci/texture/old_charts.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace vcg {
@@ -32,18 +30,20 @@ public:
 	typedef typename Flow::SideMarks SideMarks;
 	typedef typename MeshType::FaceType FaceType;
 
-	/// Edges at which the texture indices of two faces differ, or their wedge texture coordinates by more than
-	/// ricci::kSameCoordinate of the widest extent of all; two NaN are equal. Coordinates of vertices differ at
-	/// no edge: a mesh that has only those is open at its seams.
+	/// Edges at which the wedge texture coordinates of two faces jump, see ricci::MapJumps; the same edges are
+	/// seams where RicciFlow::ReadMap() is handed to RicciFlow. Coordinates of vertices jump at no edge: a mesh
+	/// that has only those is open at its seams.
 	static SideMarks OfTexture(const MeshType& m)
 	{
 		if (!HasPerWedgeTexCoord(m))
 			return SideMarks();
-		const double bound = ricci::kSameCoordinate * TextureExtent(m);
+		const typename Flow::TextureMap map = Flow::ReadMap(m);
+		const ricci::MapJumps jumps(map);
 		return Between(
-			m, [bound](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
-				return Differ(f.cWT(a.low), g.cWT(b.low), bound) ||
-					   Differ(f.cWT(a.high), g.cWT(b.high), bound);
+			m, [&](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
+				const int i = int(Index(m, f)), j = int(Index(m, g));
+				return jumps(ricci::Corner(i, a.low), ricci::Corner(j, b.low)) ||
+					   jumps(ricci::Corner(i, a.high), ricci::Corner(j, b.high));
 			});
 	}
 
@@ -78,28 +78,6 @@ private:
 		const ricci::Triangle& t = triangles[size_t(side.face())];
 		const int k = int(side.index()), next = int(side.next().index());
 		return t[size_t(k)] < t[size_t(next)] ? Corners{k, next} : Corners{next, k};
-	}
-
-	/// Of u or v, whichever is wider.
-	static double TextureExtent(const MeshType& m)
-	{
-		ricci::Box2 box;
-		for (const FaceType& f : m.face)
-			for (int k = 0; k < 3 && !f.IsD(); ++k) {
-				const ricci::Point2 p{double(f.cWT(k).U()), double(f.cWT(k).V())};
-				if (std::isfinite(p[0]) && std::isfinite(p[1]))
-					box.add(p);
-			}
-		return std::max(0.0, std::max(box.width(), box.height()));
-	}
-
-	template<class TexCoord>
-	static bool Differ(const TexCoord& a, const TexCoord& b, double bound)
-	{
-		const auto differ = [bound](double x, double y) {
-			return !(std::abs(x - y) <= bound) && x != y && !(std::isnan(x) && std::isnan(y));
-		};
-		return a.N() != b.N() || differ(a.U(), b.U()) || differ(a.V(), b.V());
 	}
 
 	static void Mark(const MeshType& m, size_t face, int k, SideMarks& marks)
