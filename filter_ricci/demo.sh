@@ -126,7 +126,7 @@ say "Packages"
 install_packages "${packages_build[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
 require_build_tools
 say "MeshLab's headers"
-fetch_sources 2020.09 2022.02 2025.07
+fetch_sources meshlab-2020.09 meshlab-2022.02 meshlab-2025.07
 say "PyMeshLab"
 make_venv
 say "Build"

@@ -8,6 +8,9 @@
 #     bash tests/deep.sh PART...              # these parts, without a limit
 #     bash tests/deep.sh --all [PART...]      # more programs, and clang's path-sensitive checks
 #
+#     wheels          the wheel for Linux by zig, in an empty environment and on the oldest Debian; with
+#                     --all the wheels for six platforms, run by Wine, qemu and musl where these are installed
+#     blender         the add-on in bpy, Blender without a window
 #     windows         the core built by mingw-w64, run by Wine
 #     clang           clang, libc++ and char unsigned, as on ARM
 #     long-double     a long double of 64 bits, as with MSVC and on Apple silicon
@@ -30,10 +33,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
 folder=$build/deep
 jobs=${JOBS:-$(nproc)}
 googletest=/usr/src/googletest
-parts=(windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
+parts=(wheels blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
 # Seconds on two idle cores, rounded up.
-declare -A share=([windows]=300 [clang]=240 [long-double]=240 [extra-plugins]=180 [threads]=60
-	[valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)
+declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240
+	[extra-plugins]=180 [threads]=60 [valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)
 not_run=77
 
 # The programs of the core that read no files of others.
@@ -101,6 +104,69 @@ portable_core() {
 	# Without MeshLab's trees: vcglib is not what these parts are about.
 	build_core "$part" -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DRICCI_GTEST_SOURCE_DIR="$googletest" \
 		-DMESHLAB_2020_SOURCE_DIR= -DMESHLAB_2025_SOURCE_DIR= "$@"
+}
+
+# debian_system NAME SUITE OPTION...: a Debian's files in $folder/systems/NAME, with Python.
+debian_system() {
+	local name=$1 suite=$2 mirror
+	shift 2
+	[ ! -d "$folder/systems/$name" ] || return 0
+	if ! have debootstrap || [ "$(id -u)" -ne 0 ]; then
+		skipped "wheels: the system $name needs root and debootstrap (Debian: debootstrap)"
+		return 1
+	fi
+	mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
+	mkdir -p "$folder/systems"
+	rm -rf "$folder/systems/$name.part"
+	debootstrap --variant=minbase "$@" "$suite" "$folder/systems/$name.part" "$mirror" \
+		>"$folder/systems/$name.log" 2>&1 || {
+		skipped "wheels: debootstrap cannot make the system $name; see build/deep/systems/$name.log"
+		return 1
+	}
+}
+
+# The C libraries and Pythons that the wheels for Linux are tried with: of the oldest Debian to be had, and of
+# arm64, whose packages are unpacked and not set up.
+other_systems() {
+	local package systems=$folder/systems
+	if debian_system oldest bullseye --include=python3-venv && [ -d "$systems/oldest.part" ]; then
+		mv "$systems/oldest.part" "$systems/oldest"
+	fi
+	[ -n "$all" ] || return 0
+	if debian_system arm64 bookworm --arch=arm64 --foreign --include=python3 &&
+		[ -d "$systems/arm64.part" ]; then
+		for package in "$systems"/arm64.part/var/cache/apt/archives/*.deb; do
+			dpkg-deb --fsys-tarfile "$package" | tar -x -C "$systems/arm64.part" --keep-directory-symlink
+		done
+		mv "$systems/arm64.part" "$systems/arm64"
+	fi
+}
+
+# python_with NAME PACKAGE...: an environment of its own in $folder/NAME.
+python_with() {
+	local name=$1
+	shift
+	{ [ -x "$folder/$name/bin/pip" ] || python3 -m venv "$folder/$name"; } >"$folder/$name.log" 2>&1 &&
+		"$folder/$name/bin/pip" install -q "$@" >>"$folder/$name.log" 2>&1
+}
+
+part_wheels() {
+	local platforms=(manylinux_2_17_x86_64)
+	[ -z "$all" ] || platforms=(manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64
+		macosx_11_0_arm64 macosx_10_15_x86_64)
+	python_with wheels.venv lief numpy || missing "wheels: pip cannot install lief, which reads libraries"
+	[ -e "$build/library/libricciflow.so" ] || missing "wheels: the library to compare with is not built"
+	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || return 1
+	other_systems
+	(cd "$root/tests/hosts" &&
+		"$folder/wheels.venv/bin/python" -B test_wheels.py "$build" "${platforms[@]}") 2>&1 |
+		sed "s/skipped '\(.*\)'$/\nSKIPPED: wheels: \1/"
+}
+
+# The newest Blender that this Python has; 400 MB.
+part_blender() {
+	python_with blender.venv bpy || missing "blender: pip has no bpy for this Python; see deep/blender.venv.log"
+	(cd "$root/tests/hosts" && "$folder/blender.venv/bin/python" -B test_blender.py "$build")
 }
 
 part_windows() {

@@ -55,7 +55,7 @@ COMMAND = """
 SYSTEMS = {"linux": "POSIX :: Linux", "macosx": "MacOS", "win": "Microsoft :: Windows"}
 
 
-def parse():
+def parse(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--library", required=True, help="the C library, .so, .dylib or .dll")
     parser.add_argument("--plugin", help="PyMeshLab's plugin, where there is one for the platform")
@@ -71,7 +71,7 @@ def parse():
     parser.add_argument("--licences", nargs="*", default=[], metavar="FILE[=NAME]")
     parser.add_argument("--folder", help="for the package as it is imported")
     parser.add_argument("--wheels", required=True, help="folder for the wheel")
-    return parser.parse_args()
+    return parser.parse_args(arguments)
 
 
 def read(path):
@@ -111,6 +111,20 @@ def description(readme):
     return f"{said}\n```python\n{code}```\n{COMMAND}"
 
 
+def named(licences):
+    """Name in the package -> file, of FILE[=NAME]."""
+    pairs = (licence.partition("=") for licence in licences)
+    return {name or os.path.basename(path): path for path, _, name in pairs}
+
+
+def metadata(options, licences, systems):
+    return METADATA.format(
+        name=NAME, version=options.version, author=options.author, expression=options.expression,
+        licences="".join(f"License-File: {name}\n" for name in licences),
+        systems="".join(f"Classifier: Operating System :: {system}\n" for system in systems),
+        description=description(options.readme)).encode()
+
+
 def package(name):
     """Name in the wheel -> bytes, of all Python in a package."""
     files = {}
@@ -131,17 +145,10 @@ def content(options):
     if options.plugin:
         files[f"{NAME}/{PLUGIN}"] = stripped(options.plugin, options.strip)
     information = f"{NAME}-{options.version}.dist-info"
-    licences = ""
-    for licence in options.licences:
-        path, _, name = licence.partition("=")
-        name = name or os.path.basename(path)
-        files[f"{information}/licenses/{name}"] = read(path)
-        licences += f"License-File: {name}\n"
-    systems = "".join(f"Classifier: Operating System :: {system}\n"
-                      for key, system in SYSTEMS.items() if re.match(rf"(many|musl)?{key}", tag))
-    files[f"{information}/METADATA"] = METADATA.format(
-        name=NAME, version=options.version, author=options.author, expression=options.expression,
-        licences=licences, systems=systems, description=description(options.readme)).encode()
+    licences = named(options.licences)
+    files.update((f"{information}/licenses/{name}", read(path)) for name, path in licences.items())
+    systems = [system for key, system in SYSTEMS.items() if re.match(rf"(many|musl)?{key}", tag)]
+    files[f"{information}/METADATA"] = metadata(options, licences, systems)
     files[f"{information}/entry_points.txt"] = SCRIPTS.encode()
     files[f"{information}/WHEEL"] = (
         "Wheel-Version: 1.0\nGenerator: make_wheel\nRoot-Is-Purelib: false\n" +
@@ -180,16 +187,17 @@ def write_wheel(wheel, files):
     os.replace(wheel + ".part", wheel)
 
 
-def main():
-    options = parse()
+def main(arguments=None):
+    """The path of the wheel."""
+    options = parse(arguments)
     os.makedirs(options.wheels, exist_ok=True)
     tag, files = content(options)
     if options.folder:
         write_folder(options.folder, files)
     wheel = os.path.join(options.wheels, f"{NAME}-{options.version}-py3-none-{tag}.whl")
     write_wheel(wheel, files)
-    print(wheel)
+    return wheel
 
 
 if __name__ == "__main__":
-    main()
+    print(main())

@@ -252,6 +252,7 @@ def stub(both):
            "    uv: Union[numpy.typing.ArrayLike, None] = None,\n"
            "    selected_edges: Union[numpy.typing.ArrayLike, None] = None,\n"
            "    selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,\n"
+           "    diagonals: Union[numpy.typing.ArrayLike, None] = None,\n"
            "    progress: Union[bool, Callable[[float, str], object], None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),

@@ -73,7 +73,7 @@ install_one_by_one() {
 	done
 }
 
-# Debian ships MeshLab without headers, but its source packages have them. The entries live in a
+# What Debian ships without headers, such as MeshLab, its source packages have. The entries live in a
 # private list derived from the machine's own mirror, so the system's lists stay as they are.
 source_apt_options() {
 	local mirror apt=$build/sources/apt suite
@@ -84,57 +84,58 @@ source_apt_options() {
 	for suite in bookworm trixie forky sid; do
 		echo "deb-src [check-valid-until=no signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]" \
 			"$mirror $suite main"
-	done >"$apt/parts/meshlab.list"
+	done >"$apt/parts/sources.list"
 	apt_options=(-o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$apt/parts"
 		-o Dir::State::Lists="$apt/lists" -o Dir::Cache="$apt/cache" -o APT::Sandbox::User=)
 }
 
-# fetch_sources VERSION...: MeshLab source trees in build/sources/meshlab-VERSION.
+# fetch_sources NAME-VERSION...: trees of Debian's source packages in build/sources/NAME-VERSION.
 fetch_sources() {
-	local version wanted=() apt_options=()
-	for version in "$@"; do
-		if [ -d "$build/sources/meshlab-$version" ]; then
-			echo "MeshLab $version: build/sources/meshlab-$version is there."
+	local tree wanted=() apt_options=()
+	for tree in "$@"; do
+		if [ -d "$build/sources/$tree" ]; then
+			echo "build/sources/$tree is there."
 		else
-			wanted+=("$version")
+			wanted+=("$tree")
 		fi
 	done
 	[ ${#wanted[@]} -gt 0 ] || return 0
 	if ! command -v apt-get >/dev/null || ! source_apt_options; then
-		skipped "MeshLab sources (${wanted[*]}): this machine has no Debian package archive. Name source trees with -DMESHLAB_2020_SOURCE_DIR=..., -DMESHLAB_2022_SOURCE_DIR=... and -DMESHLAB_2025_SOURCE_DIR=..."
+		skipped "sources (${wanted[*]}): this machine has no Debian package archive. Put source trees of these names into build/sources"
 		return 0
 	fi
 	apt-get "${apt_options[@]}" update -q >"$build/sources/apt.log" 2>&1 || true
-	for version in "${wanted[@]}"; do
-		fetch_source "$version"
+	for tree in "${wanted[@]}"; do
+		fetch_source "${tree%%-*}" "${tree#*-}"
 	done
 }
 
+# fetch_source NAME VERSION
 fetch_source() {
-	local version=$1 revision reason error target=$build/sources/meshlab-$1 work=$build/sources/download-$1
+	local name=$1 version=$2 revision reason error target=$build/sources/$1-$2 work=$build/sources/download-$1-$2
 	reason="Debian's archive cannot be reached"
 	! compgen -G "$build/sources/apt/lists/*Sources*" >/dev/null ||
 		reason="Debian's archive has no such source package"
 	rm -rf "$work"
 	while read -r revision; do
-		echo "MeshLab $version: fetching the source of Debian's $revision"
+		echo "$name-$version: fetching the source of Debian's $revision"
 		rm -rf "$work"
 		mkdir -p "$work/tree"
 		(cd "$work" && apt-get "${apt_options[@]}" source -q --download-only --tar-only \
-			"meshlab=$revision") >>"$build/sources/apt.log" 2>&1 || true
-		if ! compgen -G "$work/meshlab_*.orig.tar.*" >/dev/null; then
+			"$name=$revision") >>"$build/sources/apt.log" 2>&1 || true
+		if ! compgen -G "$work/${name}_*.orig.tar.*" >/dev/null; then
 			reason="Debian's source package cannot be downloaded"
-		elif ! error=$(tar -xf "$work"/meshlab_*.orig.tar.* -C "$work/tree" --strip-components=1 2>&1); then
+		elif ! error=$(tar -xf "$work/${name}"_*.orig.tar.* -C "$work/tree" --strip-components=1 2>&1); then
 			reason="Debian's source package cannot be unpacked: ${error%%$'\n'*}"
 		else
 			mv "$work/tree" "$target"
 			rm -rf "$work"
 			return 0
 		fi
-	done < <(apt-cache "${apt_options[@]}" showsrc meshlab 2>/dev/null |
+	done < <(apt-cache "${apt_options[@]}" showsrc "$name" 2>/dev/null |
 		sed -n 's/^Version: //p' | grep -F "$version" | sort -ruV)
 	rm -rf "$work"
-	skipped "MeshLab $version: $reason; see build/sources/apt.log"
+	skipped "$name-$version: $reason; see build/sources/apt.log"
 }
 
 # A Python with PyMeshLab in build/venv, where a package index can be reached.

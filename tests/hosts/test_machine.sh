@@ -74,15 +74,15 @@ fetched() {
 	build=$folder/$archive
 	export SOURCES=$build/sources
 	mkdir -p "$SOURCES"
-	fetch_sources 2020.09 >"$folder/said"
+	fetch_sources meshlab-2020.09 >"$folder/said"
 	grep -q "$2" "$folder/said" || { echo "FAILED: $archive: $(cat "$folder/said")"; exit 1; }
 }
 
-fetched unreachable "SKIPPED: MeshLab 2020.09: Debian's archive cannot be reached"
-fetched without "SKIPPED: MeshLab 2020.09: Debian's archive has no such source package"
-fetched breaking "SKIPPED: MeshLab 2020.09: Debian's source package cannot be downloaded"
-fetched torn "SKIPPED: MeshLab 2020.09: Debian's source package cannot be unpacked: tar: "
-fetched whole "MeshLab 2020.09: fetching"
+fetched unreachable "SKIPPED: meshlab-2020.09: Debian's archive cannot be reached"
+fetched without "SKIPPED: meshlab-2020.09: Debian's archive has no such source package"
+fetched breaking "SKIPPED: meshlab-2020.09: Debian's source package cannot be downloaded"
+fetched torn "SKIPPED: meshlab-2020.09: Debian's source package cannot be unpacked: tar: "
+fetched whole "meshlab-2020.09: fetching"
 [ -d "$SOURCES/meshlab-2020.09" ] || { echo "FAILED: nothing was unpacked"; exit 1; }
 
 # The demonstration, elsewhere, with an archive from which nothing comes.

@@ -99,7 +99,7 @@ class Wheel(unittest.TestCase):
             from packaging.utils import parse_wheel_filename
         except ImportError as problem:
             self.skipTest(f"packaging cannot be imported: {problem}")
-        wheels = glob.glob(os.path.join(common.BUILD, "release", "ricciflow-*.whl"))
+        wheels = glob.glob(os.path.join(common.BUILD, "release", "**", "ricciflow-*.whl"), recursive=True)
         for wheel in wheels:
             name, version, build, tags = parse_wheel_filename(os.path.basename(wheel))
             self.assertEqual((name, build), ("ricciflow", ()))
@@ -486,6 +486,7 @@ class Functions(unittest.TestCase):
             self.assertEqual(flatten(vertices, faces, selected_faces=chosen).components, 2)
         for wrong, words in (({"selected_edges": [[0, 0]]}, "no face has the side"),
                              ({"selected_edges": [0, 1]}, "pairs of vertices"),
+                             ({"diagonals": [[0, 0]]}, "diagonals: no face has the side"),
                              ({"selected_faces": [len(faces)]}, "indices of faces"),
                              ({"uv": result.uv[1:]}, "two numbers for each corner")):
             with self.assertRaisesRegex(ValueError, words):

@@ -425,6 +425,7 @@ def flatten(
     uv: Union[numpy.typing.ArrayLike, None] = None,
     selected_edges: Union[numpy.typing.ArrayLike, None] = None,
     selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
+    diagonals: Union[numpy.typing.ArrayLike, None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Automatic',
@@ -545,6 +546,7 @@ def uniformize(
     uv: Union[numpy.typing.ArrayLike, None] = None,
     selected_edges: Union[numpy.typing.ArrayLike, None] = None,
     selected_faces: Union[numpy.typing.ArrayLike, set[int], None] = None,
+    diagonals: Union[numpy.typing.ArrayLike, None] = None,
     progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Hyperbolic metric',

@@ -100,13 +100,13 @@ def mask(name, selected, count, elements):
     return chosen
 
 
-def side_mask(edges, faces, count):
+def side_mask(name, edges, faces, count):
     """(F, 3) bool: the sides of faces that are among the edges, pairs of vertices."""
-    edges = numbers("selected_edges", edges)
+    edges = numbers(name, edges)
     if edges.dtype == bool and edges.shape == faces.shape:
         return edges
     if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
-        raise ValueError("selected_edges must hold pairs of vertices, (N, 2), or a truth value for each "
+        raise ValueError(f"{name} must hold pairs of vertices, (N, 2), or a truth value for each "
                          f"side of each face, {faces.shape}: side k from corner k to the next one")
 
     def numbered(pairs):
@@ -116,7 +116,7 @@ def side_mask(edges, faces, count):
     wanted = numbered(edges)
     missing = ~numpy.isin(wanted, sides)
     if missing.any():
-        raise ValueError(f"selected_edges: no face has the side {edges[missing.argmax()].tolist()}")
+        raise ValueError(f"{name}: no face has the side {edges[missing.argmax()].tolist()}")
     return numpy.isin(sides, wanted)
 
 

@@ -210,7 +210,7 @@ for _class, _keys in ((Flattening, EUCLIDEAN_RESULTS),
         setattr(_class, _key, _make(_key, _text))
 
 
-def with_keywords(given, selected, curvature, uv, selected_edges, selected_faces, parameters):
+def with_keywords(given, selected, curvature, uv, selected_edges, selected_faces, diagonals, parameters):
     """Adds what the caller gives beside the mesh, and what that means unless it is said."""
     count, arrays = len(given.vertices), given.arrays
     if selected is not None:
@@ -223,8 +223,10 @@ def with_keywords(given, selected, curvature, uv, selected_edges, selected_faces
         arrays["uv"] = _loading.per_corner(uv, len(given.faces))
         parameters.setdefault("seams", "Existing texture seams")
     if selected_edges is not None:
-        arrays["selected_edges"] = _loading.side_mask(selected_edges, given.faces, count)
+        arrays["selected_edges"] = _loading.side_mask("selected_edges", selected_edges, given.faces, count)
         parameters.setdefault("seams", "Selected edges")
+    if diagonals is not None:
+        arrays["faux"] = _loading.side_mask("diagonals", diagonals, given.faces, count)
     if selected_faces is not None:
         arrays["selected_faces"] = _loading.mask("selected_faces", selected_faces, len(given.faces),
                                                  "faces")
@@ -269,17 +271,17 @@ _KINDS = {"flatten": (0, Flattening), "uniformize": (1, Uniformization)}
 
 
 def flatten(mesh, faces=None, *, selected=None, curvature=None, uv=None, selected_edges=None,
-            selected_faces=None, progress=None, **parameters):
+            selected_faces=None, diagonals=None, progress=None, **parameters):
     return _solve("flatten", mesh, faces, progress, dict(
         selected=selected, curvature=curvature, uv=uv, selected_edges=selected_edges,
-        selected_faces=selected_faces), parameters)
+        selected_faces=selected_faces, diagonals=diagonals), parameters)
 
 
 def uniformize(mesh, faces=None, *, selected=None, curvature=None, uv=None, selected_edges=None,
-               selected_faces=None, progress=None, **parameters):
+               selected_faces=None, diagonals=None, progress=None, **parameters):
     return _solve("uniformize", mesh, faces, progress, dict(
         selected=selected, curvature=curvature, uv=uv, selected_edges=selected_edges,
-        selected_faces=selected_faces), parameters)
+        selected_faces=selected_faces, diagonals=diagonals), parameters)
 
 
 _INPUT = """
@@ -297,6 +299,8 @@ selected_edges : pairs of vertices, or a truth value for each side of each face 
     'Selected edges', unless it is given
 selected_faces : indices of faces, or a truth value for each; seams then is 'Border of selected
     faces', unless it is given
+diagonals : pairs of vertices, or a truth value for each side of each face (F, 3): sides inside polygons,
+    at which the mesh is not cut
 progress : True for a bar (of tqdm, where it is installed), or a function that is called with the
     share of the work that is done and the name of the step; what it raises ends the run, as Ctrl-C
     does, and the mesh stays as it is
@@ -306,7 +310,7 @@ _own = [inspect.Parameter("mesh", inspect.Parameter.POSITIONAL_OR_KEYWORD),
         inspect.Parameter("faces", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
         *(inspect.Parameter(_name, inspect.Parameter.KEYWORD_ONLY, default=None)
           for _name in ("selected", "curvature", "uv", "selected_edges", "selected_faces",
-                        "progress"))]
+                        "diagonals", "progress"))]
 for _function, _description, _what in zip(
         (flatten, uniformize), DESCRIPTIONS,
         ("UV-unwraps a mesh: a conformal map into the plane. Returns a Flattening; raises Refused.",

@@ -425,7 +425,8 @@ def solve(number, mesh, progress, keywords, parameters):
         mesh_set = MeshSet()
         mesh_set.add_mesh(mesh)
     _check_mesh(mesh_set)
-    others = [name for name in ("uv", "selected_edges", "selected_faces") if keywords[name] is not None]
+    others = [name for name in ("uv", "selected_edges", "selected_faces", "diagonals")
+              if keywords[name] is not None]
     if USES_PLUGIN and not others:
         before = [layer.id() for layer in mesh_set]
         _select(mesh_set, keywords["selected"], keywords["curvature"], parameters)

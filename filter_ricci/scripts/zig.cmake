@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Cross-compiles by zig, which brings the headers and libraries of every system along. Used by wheels.sh:
+#   RICCI_ZIG         folder of the programs zig, zig-ar, zig-ranlib and zig-rc
+#   RICCI_ZIG_TARGET  as zig names it, such as x86_64-linux-gnu.2.17
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES RICCI_ZIG RICCI_ZIG_TARGET)
+if(NOT RICCI_ZIG_TARGET MATCHES "^([^-]+)-(linux|windows|macos)")
+	message(FATAL_ERROR "RICCI_ZIG_TARGET is no target: ${RICCI_ZIG_TARGET}")
+endif()
+set(CMAKE_SYSTEM_PROCESSOR ${CMAKE_MATCH_1})
+set(system_linux Linux)
+set(system_windows Windows)
+set(system_macos Darwin)
+set(CMAKE_SYSTEM_NAME ${system_${CMAKE_MATCH_2}})
+set(CMAKE_C_COMPILER "${RICCI_ZIG}/zig" cc -target ${RICCI_ZIG_TARGET})
+set(CMAKE_CXX_COMPILER "${RICCI_ZIG}/zig" c++ -target ${RICCI_ZIG_TARGET})
+set(CMAKE_AR "${RICCI_ZIG}/zig-ar")
+set(CMAKE_RANLIB "${RICCI_ZIG}/zig-ranlib")
+set(CMAKE_RC_COMPILER "${RICCI_ZIG}/zig-rc")
+set(CMAKE_INSTALL_NAME_TOOL true) # nothing is installed
+set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
+# Nothing of the machine that compiles, but for Eigen, which consists of headers.
+set(CMAKE_FIND_ROOT_PATH "${CMAKE_CURRENT_LIST_DIR}/nothing")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
