@@ -69,8 +69,7 @@ class Parametrization:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture
-        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
-        too."""
+        has drawn. What else was in the file that the mesh is from stays."""
     def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
         """Writes one of the layers to a PLY file."""
 
@@ -106,7 +105,8 @@ class Flattening(Parametrization):
     """standard deviation of ln s, weighted likewise"""
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios"""
+    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
+    texture (1/16384 of √area), unless they cover as much as a row of texels"""
     objective: float
     """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
     √area"""
@@ -268,7 +268,8 @@ class Uniformization(Parametrization):
     """standard deviation of ln s, weighted likewise"""
     stretch: float
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios"""
+    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
+    texture (1/16384 of √area), unless they cover as much as a row of texels"""
     objective: float
     """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
     √area"""
@@ -478,9 +479,15 @@ def flatten(
         'As the flow has them',
         'Without overlap',
         'Without overlap, cut for room',
+        'As they are, only packed',
     ]] = 'Without overlap, cut for room',
     normalize_uv: bool = True,
     sphere_layer: bool = False,
+    join_vertices: Union[int, Literal[
+        'Automatic',
+        'Never',
+        'Always',
+    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
@@ -520,11 +527,16 @@ def flatten(
         seams, whose sides then differ. Only for the method 'Intrinsic flips'.
     charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
         shortest lines. Cut for room: with Automatic, also a chart that fills little of the
-        square, where the room is worth the seam.
+        square, where the room is worth the seam. As they are: those of the texture coordinates
+        that the mesh has keep their shape, and are only turned, scaled by one factor and
+        packed.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
         closed surface of genus 0.
+    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
+        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
+        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
@@ -578,6 +590,11 @@ def uniformize(
         'None',
         'Repair',
     ]] = 'Repair',
+    join_vertices: Union[int, Literal[
+        'Automatic',
+        'Never',
+        'Always',
+    ]] = 'Automatic',
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
@@ -608,6 +625,9 @@ def uniformize(
     method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
         with an error; the mesh is never changed.
     finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
+    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
+        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
+        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old

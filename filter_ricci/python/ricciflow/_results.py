@@ -26,7 +26,9 @@ EUCLIDEAN_RESULTS = \
  'area_distortion_spread': ('float', 'standard deviation of ln s, weighted likewise'),
  'stretch': ('float',
              'Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of '
-             'the map: 4 if all lengths keep their ratios'),
+             'the map: 4 if all lengths keep their ratios. It leaves out faces lower than a '
+             'texel of the largest texture (1/16384 of √area), unless they cover as much as a '
+             'row of texels'),
  'objective': ('float',
                'Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all '
                'seams) / √area'),
