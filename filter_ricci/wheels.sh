@@ -35,9 +35,10 @@ declare -A also=(
 	[manylinux_2_17_x86_64]=.manylinux2014_x86_64
 	[manylinux_2_17_aarch64]=.manylinux2014_aarch64)
 
+# The code says that nothing is wrong but what is missing.
 need() {
 	echo "The wheels need $1."
-	exit 1
+	exit 77
 }
 
 # zig in an environment of its own, and its parts as programs of their own, as CMake wants them.

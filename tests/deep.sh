@@ -151,12 +151,14 @@ python_with() {
 }
 
 part_wheels() {
-	local platforms=(manylinux_2_17_x86_64)
+	local code=0 platforms=(manylinux_2_17_x86_64)
 	[ -z "$all" ] || platforms=(manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64
 		macosx_11_0_arm64 macosx_10_15_x86_64)
 	python_with wheels.venv lief numpy || missing "wheels: pip cannot install lief, which reads libraries"
 	[ -e "$build/library/libricciflow.so" ] || missing "wheels: the library to compare with is not built"
-	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || return 1
+	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || code=$?
+	[ $code -ne $not_run ] || missing "wheels: the line above says what they need"
+	[ $code -eq 0 ] || return 1
 	other_systems
 	(cd "$root/tests/hosts" &&
 		"$folder/wheels.venv/bin/python" -B test_wheels.py "$build" "${platforms[@]}") 2>&1 |
