@@ -595,7 +595,9 @@ TEST(Parametrize, TheReportMeasuresTheOutput)
 		EXPECT_NEAR(r.qcMax, found.qcMax, 1e-6 * found.qcMax);
 		EXPECT_NEAR(r.areaDistortionMean, found.areaMean, 1e-9);
 		EXPECT_NEAR(r.areaDistortionSpread, found.areaSpread, 1e-9);
-		EXPECT_NEAR(*r.stretch, found.stretch, 1e-9 * found.stretch);
+		// Pieces of the refinement that are lower than a texel are left out.
+		const bool hasUnseen = output == OutputTriangulation::CommonRefinement;
+		EXPECT_NEAR(*r.stretch, found.stretch, (hasUnseen ? 1e-6 : 1e-9) * found.stretch);
 		EXPECT_NEAR(*r.objective, *r.stretch + r.seamLengthRelative / 20, 1e-9);
 		std::vector<double> qc(map.vertexQC.size(), 0.0), area = qc;
 		for (const int f : map.mesh.points.indices())

@@ -28,9 +28,9 @@ constexpr int kMaxAttempts = 60;
 /// Charts that are placed by their outlines at most.
 constexpr std::size_t kMaxOutlines = 200;
 
-/// A lone chart lies along the axes if the square round it is wider by no more than this share: on boxes whose nets are one
-/// chart it is 5 % at most, a strip ten times as long as wide would fill a tenth of the square in place of a sixth.
-constexpr double kUprightCost = 0.06;
+/// A lone chart lies along the axes if the square round it is wider by no more than this share. Nets of boxes, which
+/// mostly are one chart, stay below it; a strip ten times as long as wide fills a tenth of the square in place of a sixth.
+constexpr double kUprightCost = 0.1;
 
 /// A chart is too small for that if its box is shorter than this share of the square.
 constexpr double kMinOutlineExtent = 1.0 / 64.0;
