@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the Python package for other people's machines: a wheel for each platform and the source
-# distribution, in build/release/wheels/. From Linux, by zig, which the package index has, and from the sources of
-# CHOLMOD in Debian's archive. The same sources give the same wheels, bit by bit.
+# distribution, in build/release/wheels/. From Linux, by zig, which the package index has, and from the
+# sources of CHOLMOD in Debian's archive. The same sources give the same wheels, bit by bit.
 #
 #     bash filter_ricci/wheels.sh                        # all platforms, five minutes of a processor each
 #     bash filter_ricci/wheels.sh win_amd64 ...          # these
@@ -15,10 +15,11 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/machine.sh"
 
 zig_version=0.17.1 # another one makes other bits
-suitesparse=suitesparse-5.12.0
-meshlab=meshlab-2025.07 # has vcglib inside
+suitesparse="suitesparse-5.12.0"
+meshlab="meshlab-2025.07" # has vcglib inside
 eigen=/usr/include/eigen3
 folder=$build/wheels
+wheels=$build/release/wheels
 
 platforms=(manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64 macosx_11_0_arm64
 	macosx_10_15_x86_64)
@@ -30,11 +31,14 @@ declare -A zig_target=(
 	[macosx_11_0_arm64]=aarch64-macos.11.0
 	[macosx_10_15_x86_64]=x86_64-macos.10.15)
 # What an installer of 2020 calls the same platform.
-declare -A also=([manylinux_2_17_x86_64]=.manylinux2014_x86_64 [manylinux_2_17_aarch64]=.manylinux2014_aarch64)
+declare -A also=(
+	[manylinux_2_17_x86_64]=.manylinux2014_x86_64
+	[manylinux_2_17_aarch64]=.manylinux2014_aarch64)
 
+# The code says that nothing is wrong but what is missing.
 need() {
 	echo "The wheels need $1."
-	exit 1
+	exit 77
 }
 
 # zig in an environment of its own, and its parts as programs of their own, as CMake wants them.
@@ -58,8 +62,8 @@ get_zig() {
 gather() {
 	local sources=$tree/sources file
 	rm -rf "$tree"
-	mkdir -p "$sources/SuiteSparse" "$sources/vcglib/wrap" "$sources/Eigen/include/eigen3" "$sources/Eigen/share/eigen3"
-	(cd "$root" && find CMakeLists.txt LICENSE README.md CITATION.cff pyproject.toml vcg_ext filter_ricci -type f \
+	mkdir -p "$sources"/{SuiteSparse,vcglib/wrap,Eigen/include/eigen3,Eigen/share/eigen3}
+	(cd "$root" && find CMakeLists.txt {LICENSE,README.md,CITATION.cff,pyproject.toml,vcg_ext,filter_ricci} -type f \
 		-not -path '*/__pycache__/*' -not -path 'filter_ricci/demo/*' -print0 |
 		xargs -0 cp -p --parents -t "$tree")
 	cp -rp "$build/sources/$meshlab/src/vcglib/vcg" "$sources/vcglib/"
@@ -69,8 +73,8 @@ gather() {
 	cp -rp /usr/share/eigen3/cmake "$sources/Eigen/share/eigen3/"
 	cp -p /usr/share/doc/libeigen3-dev/copyright "$sources/Eigen/LICENSE"
 	if [ -d "$build/sources/$suitesparse" ]; then
-		(cd "$build/sources/$suitesparse" && cp -rp --parents SuiteSparse_config/*.[ch] CHOLMOD/{Include,Core,Cholesky,Supernodal} \
-			{AMD,COLAMD}/{Include,Source} "$sources/SuiteSparse/")
+		(cd "$build/sources/$suitesparse" && cp -rp --parents SuiteSparse_config/*.[ch] \
+			CHOLMOD/{Include,Core,Cholesky,Supernodal} {AMD,COLAMD}/{Include,Source} "$sources/SuiteSparse/")
 		for file in CHOLMOD AMD COLAMD; do
 			cat "$build/sources/$suitesparse/$file/Doc/License.txt"
 		done >"$sources/SuiteSparse/LICENSE"
@@ -111,10 +115,10 @@ make_wheel() {
 		echo "FAILED: $platform; see build/wheels/$platform.log"
 		return 1
 	}
-	library=$(find "$folder/$platform/library" -name '*ricciflow.so' -o -name '*ricciflow.dylib' -o -name '*ricciflow.dll')
+	library=$(find "$folder/$platform/library" -name '*ricciflow.so' -o -name '*.dylib' -o -name '*.dll')
 	compiled_in "$platform"
-	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" "$build/release/wheels" \
-		"$expression" "${licences[@]}"
+	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" \
+		"$wheels" "$expression" "${licences[@]}"
 }
 
 chosen=("$@")
@@ -123,7 +127,7 @@ for platform in "${chosen[@]}"; do
 	[ "$platform" = sdist ] || [ -n "${zig_target[$platform]:-}" ] ||
 		{ echo "There is no platform $platform: sdist ${platforms[*]}"; exit 2; }
 done
-mkdir -p "$folder" "$build/sources" "$build/release/wheels"
+mkdir -p "$folder" "$build/sources" "$wheels"
 for tool in cmake ninja python3; do
 	command -v $tool >/dev/null || need "$tool"
 done
@@ -137,7 +141,8 @@ gather
 status=0
 for platform in "${chosen[@]}"; do
 	if [ "$platform" = sdist ]; then
-		(cd "$tree/filter_ricci/python" && python3 -B -c 'import sys, build_backend as b; print(b.build_sdist(sys.argv[1]))' "$build/release/wheels")
+		(cd "$tree/filter_ricci/python" &&
+			python3 -B -c 'import sys, build_backend; print(build_backend.build_sdist(sys.argv[1]))' "$wheels")
 		continue
 	fi
 	[ -n "${zig:-}" ] || get_zig

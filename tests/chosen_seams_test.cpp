@@ -382,12 +382,12 @@ TEST(ChosenSeams, AreThoseOfEdges)
 		for (std::size_t k = 0; k < 3; ++k)
 			if (marks[f][k] && !seen.insert(edge(mesh.triangles[f], k)).second)
 				some[f][k] = 0; // marked in its first face
-		const int turns = random.index(3);
-		std::rotate(
-			turned.triangles[f].begin(),
-			turned.triangles[f].begin() + turns,
-			turned.triangles[f].end());
-		std::rotate(some[f].begin(), some[f].begin() + turns, some[f].end());
+		const std::size_t turns = at(random.index(3));
+		const std::array<char, 3> own = some[f];
+		for (std::size_t k = 0; k < 3; ++k) {
+			turned.triangles[f][k] = mesh.triangles[f][(k + turns) % 3];
+			some[f][k] = own[(k + turns) % 3];
+		}
 	}
 	const auto r = compute(turned, withoutCones(), some);
 	expectCounts(turned, insideEdges(turned, some), r.report);

@@ -17,7 +17,7 @@
 #     extra-plugins   the plugin, as meshlab-extra-plugins builds it
 #     threads         the thread sanitizer
 #     valgrind        the fuzz target under valgrind
-#     fuzzing         20000 hostile meshes
+#     fuzzing         20000 hostile meshes, and a minute of damaged files
 #     clang-tidy      the checks of .clang-tidy
 #     sanitizers      the address and undefined-behaviour sanitizers
 #
@@ -35,8 +35,8 @@ jobs=${JOBS:-$(nproc)}
 googletest=/usr/src/googletest
 parts=(wheels blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
 # Seconds on two idle cores, rounded up.
-declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240 [extra-plugins]=180 [threads]=60
-	[valgrind]=100 [fuzzing]=150 [clang-tidy]=420 [sanitizers]=750)
+declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240
+	[extra-plugins]=180 [threads]=60 [valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)
 not_run=77
 
 # The programs of the core that read no files of others.
@@ -111,13 +111,18 @@ debian_system() {
 	local name=$1 suite=$2 mirror
 	shift 2
 	[ ! -d "$folder/systems/$name" ] || return 0
-	have debootstrap && [ "$(id -u)" -eq 0 ] || { skipped "wheels: the system $name needs root and debootstrap" && return 1; }
+	if ! have debootstrap || [ "$(id -u)" -ne 0 ]; then
+		skipped "wheels: the system $name needs root and debootstrap (Debian: debootstrap)"
+		return 1
+	fi
 	mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
 	mkdir -p "$folder/systems"
 	rm -rf "$folder/systems/$name.part"
 	debootstrap --variant=minbase "$@" "$suite" "$folder/systems/$name.part" "$mirror" \
-		>"$folder/systems/$name.log" 2>&1 ||
-		{ skipped "wheels: debootstrap cannot make the system $name; see build/deep/systems/$name.log" && return 1; }
+		>"$folder/systems/$name.log" 2>&1 || {
+		skipped "wheels: debootstrap cannot make the system $name; see build/deep/systems/$name.log"
+		return 1
+	}
 }
 
 # The C libraries and Pythons that the wheels for Linux are tried with: of the oldest Debian to be had, and of
@@ -128,7 +133,8 @@ other_systems() {
 		mv "$systems/oldest.part" "$systems/oldest"
 	fi
 	[ -n "$all" ] || return 0
-	if debian_system arm64 bookworm --arch=arm64 --foreign --include=python3 && [ -d "$systems/arm64.part" ]; then
+	if debian_system arm64 bookworm --arch=arm64 --foreign --include=python3 &&
+		[ -d "$systems/arm64.part" ]; then
 		for package in "$systems"/arm64.part/var/cache/apt/archives/*.deb; do
 			dpkg-deb --fsys-tarfile "$package" | tar -x -C "$systems/arm64.part" --keep-directory-symlink
 		done
@@ -145,20 +151,23 @@ python_with() {
 }
 
 part_wheels() {
-	local platforms=(manylinux_2_17_x86_64)
+	local code=0 platforms=(manylinux_2_17_x86_64)
 	[ -z "$all" ] || platforms=(manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64
 		macosx_11_0_arm64 macosx_10_15_x86_64)
-	python_with wheels.venv lief numpy || missing "wheels: lief, which reads libraries, cannot be installed by pip"
+	python_with wheels.venv lief numpy || missing "wheels: pip cannot install lief, which reads libraries"
 	[ -e "$build/library/libricciflow.so" ] || missing "wheels: the library to compare with is not built"
-	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || return 1
+	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || code=$?
+	[ $code -ne $not_run ] || missing "wheels: the line above says what they need"
+	[ $code -eq 0 ] || return 1
 	other_systems
-	(cd "$root/tests/hosts" && "$folder/wheels.venv/bin/python" -B test_wheels.py "$build" "${platforms[@]}") 2>&1 |
+	(cd "$root/tests/hosts" &&
+		"$folder/wheels.venv/bin/python" -B test_wheels.py "$build" "${platforms[@]}") 2>&1 |
 		sed "s/skipped '\(.*\)'$/\nSKIPPED: wheels: \1/"
 }
 
 # The newest Blender that this Python has; 400 MB.
 part_blender() {
-	python_with blender.venv bpy || missing "blender: pip has no bpy for this Python; see build/deep/blender.venv.log"
+	python_with blender.venv bpy || missing "blender: pip has no bpy for this Python; see deep/blender.venv.log"
 	(cd "$root/tests/hosts" && "$folder/blender.venv/bin/python" -B test_blender.py "$build")
 }
 
@@ -241,6 +250,7 @@ part_fuzzing() {
 	for seed in "${processes[@]}"; do
 		wait "$seed" || status=1
 	done
+	(cd "$folder/fuzzing" && "$build/venv/bin/python" "$root/tests/fuzz/fuzz_files.py" 60) || status=1
 	return $status
 }
 

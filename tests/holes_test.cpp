@@ -49,6 +49,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 			const SurfaceMesh mesh = perforated(16, height);
 			Options options;
 			options.method = method;
+			options.holes = Holes::Boundaries;
 			const FlatResult flat = run(mesh, options);
 			EXPECT_EQ(flat.report.cappedHoles, 0);
 			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);

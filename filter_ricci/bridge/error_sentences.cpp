@@ -155,7 +155,8 @@ std::string inWords(const ricci::InvalidOption& e)
 		return std::string(e.what()) + ".";
 	case Error::NoMap:
 		return count + (e.count == 1 ? " face has" : " faces have") +
-			   " no texture coordinates: only a map of all faces can be packed unchanged.";
+			   " no texture coordinates, and only a map of all faces can be packed as it is: "
+			   "choose other {charts}.";
 	case Error::CoverTooLarge:
 		return "{universal_cover}: " + numberText(e.value, 10) + " rings would need more than " +
 			   count + " faces. Ask for fewer rings, or simplify the mesh.";

@@ -79,8 +79,8 @@ def build_sdist(sdist_directory, config_settings=None):
     files = {"PKG-INFO": make_wheel.metadata(options, make_wheel.named(options.licences), ())}
     for place, folders, names in os.walk(ROOT):
         folders[:] = sorted(name for name in folders if name != "__pycache__")
-        files.update((os.path.relpath(os.path.join(place, name), ROOT), make_wheel.read(os.path.join(place, name)))
-                     for name in sorted(names))
+        for path in (os.path.join(place, name) for name in sorted(names)):
+            files[os.path.relpath(path, ROOT)] = make_wheel.read(path)
     name = f"{folder}.tar.gz"
     with open(os.path.join(sdist_directory, name), "wb") as raw, \
             gzip.GzipFile("", "wb", mtime=0, fileobj=raw) as packed, \

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV > Unwrap (Ricci flow) in Blender 4.2 and later, in edit mode: the selected faces of all meshes that are
-edited, cut at the seams that are marked and, where the map needs it, elsewhere. Angles are kept, polygons stay.
-
-Install it by Edit > Preferences > Add-ons > Install from Disk. It needs the Python package ricciflow in Blender's
-own Python; where that is missing, the menu entry says how to get it."""
+"""UV > Unwrap (Ricci flow) in Blender 4.2 and later, in edit mode: the selected faces of all meshes that
+are edited, cut at the seams that are marked and, where the map needs it, elsewhere. Angles are kept,
+polygons stay. Install it by Edit > Preferences > Add-ons > Install from Disk. It needs the Python package
+ricciflow in Blender's own Python; where that is missing, the menu entry says how to get it."""
 
 import sys
 

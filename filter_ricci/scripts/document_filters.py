@@ -106,8 +106,10 @@ def results(text):
             kinds = cells[1].split(", ")
             meaning = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", cells[2].replace("\\|", "|"))
             meaning = re.sub(r"[`*]", "", meaning)
+            parts = meaning.split("; ")  # one for each key, or all for each
             for i, name in enumerate(names):
-                keys[name] = (kinds[i % len(kinds)], meaning)
+                keys[name] = (kinds[i % len(kinds)],
+                              parts[i] if len(parts) == len(names) else meaning)
         found.append(keys)
     return found
 
@@ -194,8 +196,7 @@ class Parametrization:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture
-        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
-        too."""
+        has drawn. What else was in the file that the mesh is from stays."""
     def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
         """Writes one of the layers to a PLY file."""
 

@@ -18,6 +18,9 @@ set(CMAKE_RANLIB "${RICCI_ZIG}/zig-ranlib")
 set(CMAKE_RC_COMPILER "${RICCI_ZIG}/zig-rc")
 set(CMAKE_INSTALL_NAME_TOOL true) # nothing is installed
 set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
+if(RICCI_ZIG_TARGET MATCHES "musl") # whose threads have stacks of 128 KiB, all that Eigen may take for one array
+	set(CMAKE_CXX_FLAGS_INIT -DEIGEN_STACK_ALLOCATION_LIMIT=16384)
+endif()
 # Nothing of the machine that compiles, but for Eigen, which consists of headers.
 set(CMAKE_FIND_ROOT_PATH "${CMAKE_CURRENT_LIST_DIR}/nothing")
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged files for ricciflow.files: each is read and written again, or refused by FileError, within ten
-seconds and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with a Python that has numpy."""
+seconds and ten times its size and 64 MB. Usage: fuzz_files.py SECONDS [SEED], with numpy."""
 
 import os
 import random
@@ -10,6 +10,7 @@ import signal
 import sys
 import tempfile
 import time
+import traceback
 import tracemalloc
 import warnings
 
@@ -141,10 +142,9 @@ def main():
             except (Exception, Hang) as problem:  # pylint: disable=broad-except
                 faults += 1
                 outcome = "FAULT"
-                kept = os.path.join(tempfile.gettempdir(), f"fuzz_files_{seed}_{faults}_{name}")
+                kept = f"defect-{faults}-{name}"
                 with open(kept, "wb") as file:
                     file.write(content)
-                import traceback
                 frames = [f for f in traceback.extract_tb(problem.__traceback__) if "files" in f.filename][-1]
                 print(
                     f"{type(problem).__name__}: {str(problem)[:100]} at {os.path.basename(frames.filename)}:"

@@ -36,8 +36,7 @@ def png(picture):
 
     def chunk(kind, content):
         return (
-            struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-        )
+            struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content)))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(body)) +
             chunk(b"IEND", b""))
 
@@ -92,9 +91,12 @@ MTL = (b"newmtl red\nKd 0.8 0.1 0.1\nd 0.5\nmap_Bump bump.png\nnewmtl picture\nK
        b"map_Kd -s 1 1 1 -o 0.5 0 a b.png\n")
 
 
-def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None):
-    """(bytes) A PLY with properties of all kinds; order None is ascii. Coordinates of each polygon, (n, 2), lie
-    before the last property (coordinates) or after it (last); True: any."""
+def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None, origins=None):
+    """(bytes) A PLY with properties of all kinds; order None is ascii.
+
+    Coordinates of each polygon, (n, 2), lie before the last property (coordinates) or after it (last);
+    True: any. The other properties of a polygon are those of its origin, by itself its own number.
+    """
     polygons = list(QUADS) + [QUADS[0][[0, 1, 2]]] if polygons is None else polygons
     if coordinates is True:
         coordinates = [np.arange(2 * len(p)) / 16 for p in polygons]
@@ -137,10 +139,10 @@ def ply(order, polygons=None, vertices=CUBE, coordinates=None, last=None):
                 ("u1", 3),
                 ("u1", i % 3),
                 *[("i2", -k) for k in range(i % 3)],
-            ]
-        )
+            ])
     for i, polygon in enumerate(polygons):
-        row = [("f4", i / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
+        number = i if origins is None else origins[i]
+        row = [("f4", number / 7), ("u1", len(polygon)), *[("i4", v) for v in polygon]]
         row += (listed(coordinates[i]) if coordinates is not None else []) + [("i4", 0)]
         rows.append(row + (listed(last[i]) if last is not None else []))
     rows += [[("i4", 0), ("i4", 1)], [("i4", 2), ("i4", 3)]]
@@ -173,8 +175,7 @@ class Gltf:
     def view(self, content, **members):
         self.body += bytes(-len(self.body) % 4)
         self.json["bufferViews"].append(
-            {"buffer": 0, "byteOffset": len(self.body), "byteLength": len(content), **members}
-        )
+            {"buffer": 0, "byteOffset": len(self.body), "byteLength": len(content), **members})
         self.body += content
         return len(self.json["bufferViews"]) - 1
 
@@ -291,14 +292,12 @@ def rich():
     out.node(ball, name="a", skin=0)
     out.node(other, scale=[2, 2, 2])
     mirrored = out.mesh(
-        {"attributes": {"POSITION": position}, "indices": out.accessor(TRIANGLES.ravel().astype("u1"))}
-    )
+        {"attributes": {"POSITION": position}, "indices": out.accessor(TRIANGLES.ravel().astype("u1"))})
     out.node(mirrored, scale=[-1, 1, 1], translation=[5, 0, 0])
     out.json["nodes"].append({"camera": 0, "name": "bone"})
     out.json["scenes"][0]["nodes"].append(3)
     out.json["skins"] = [
-        {"joints": [3], "inverseBindMatrices": out.accessor(np.eye(4, dtype="f4").reshape(1, 16))}
-    ]
+        {"joints": [3], "inverseBindMatrices": out.accessor(np.eye(4, dtype="f4").reshape(1, 16))}]
     times = out.accessor(np.array([0, 1], "f4"), bounds=True)
     out.json["animations"] = [{"samplers": [{"input": times, "output": out.accessor(np.zeros((2, 3), "f4"))}],
                                "channels": [{"sampler": 0, "target": {"node": 3, "path": "translation"}}]}]
@@ -337,8 +336,7 @@ def threemf(colours=True):
     vertices = "".join('<vertex x="%g" y="%g" z="%g"/>\n' % tuple(p) for p in CUBE)
     own = [' pid="1" p1="0" p2="1" p3="0"' if colours and i < 3 else "" for i in range(12)]
     triangles = "".join(
-        f'<triangle v1="{a}" v2="{b}" v3="{c}"{p} />\n' for (a, b, c), p in zip(TRIANGLES.tolist(), own)
-    )
+        f'<triangle v1="{a}" v2="{b}" v3="{c}"{p} />\n' for (a, b, c), p in zip(TRIANGLES.tolist(), own))
     group = (
         '<m:colorgroup id="1"><m:color color="#FF0000"/><m:color color="#00FF0080"/></m:colorgroup>' * colours
     )
@@ -348,23 +346,20 @@ def threemf(colours=True):
         f'<metadata name="Title">&lt;cube&gt; \u00e4</metadata><resources>{group}'
         f'<object id="5" name="one">{mesh}'
         f'</object><object id="7" name="two">{mesh}</object></resources><build><item objectid="5"/>'
-        '<item objectid="7" transform="-2 0 0 0 2 0 0 0 2 9 0 0"/></build></model>'
-    )
+        '<item objectid="7" transform="-2 0 0 0 2 0 0 0 2 9 0 0"/></build></model>')
     types = (
         '<?xml version="1.0" encoding="UTF-8"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/'
         'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-'
         'package.relationships'
         '+xml"/><Default Extension="model" ContentType="application/'
         'vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
-        '</Types>'
-    )
+        '</Types>')
     relations = (
         '<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="'
         'http://schemas.openxmlformats.org/package/'
         '2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="r" Type="'
         'http://schemas.microsoft.com/'
-        '3dmanufacturing/2013/01/3dmodel"/></Relationships>'
-    )
+        '3dmanufacturing/2013/01/3dmodel"/></Relationships>')
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as package:
         for name, content in (("[Content_Types].xml", types), ("_rels/.rels", relations),
@@ -380,8 +375,7 @@ def every():
     strips = (
         b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
-        b"8 0 1 2 3 -1 0 2 1\n"
-    )
+        b"8 0 1 2 3 -1 0 2 1\n")
     return {
         "all.obj": OBJ,
         "ascii.ply": ply(None),

@@ -120,7 +120,7 @@ class Unwrap(unittest.TestCase):
                 self.assertTrue(all(0.0 <= x <= 1.0 for corner in corners for x in corner))
 
     def test_polygons(self):
-        """A shallow bowl of quads with a bottom of 32 sides keeps its polygons, each whole and not flipped."""
+        """A shallow bowl of quads with a bottom of 32 sides keeps its polygons, whole and not flipped."""
         def bowl(b):
             rings = [[b.verts.new((r * numpy.cos(a), r * numpy.sin(a), 0.2 * r * r))
                       for a in numpy.arange(32) * numpy.pi / 16] for r in (0.4, 0.6, 0.8, 1.0)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of meshes: what is read of them, and that all but texture coordinates stays.
-Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; uses Pillow and node where they are."""
+Usage: test_files.py BUILD_DIR [TEST...], with a Python that has numpy; uses Pillow and node as well."""
 
 import glob
 import io
@@ -220,8 +220,7 @@ class Concave(unittest.TestCase):
     def test_comb(self):
         teeth = 20
         top = [
-            p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))
-        ]
+            p for i in reversed(range(teeth)) for p in ((2 * i + 1.5, 1), (2 * i + 1, 5), (2 * i + 0.5, 1))]
         corners = [(0, 0), (2 * teeth, 0), *top]
         self.check(corners, shoelace(corners))
 
@@ -263,34 +262,22 @@ class Ply(Folder):
                     old = samples.ply(order, polygons, coordinates=True if place == "coordinates" else None)
                     mesh = files.read(self.file("in.ply", old))
                     uv = by_corner(mesh)
-                    mesh.save(self.folder / "out.ply", uv)
-                    corner = np.zeros((int(mesh.starts[-1]), 2))
-                    corner[mesh.corners] = uv
-                    lists = np.split(corner, mesh.starts[1:-1])
-                    self.assertEqual((self.folder / "out.ply").read_bytes(),
-                                     samples.ply(order, polygons, **{place: lists}))
-
-    def test_only_a_torn_polygon_is_divided(self):
-        for order in (None, "<", ">"):
-            mesh = files.read(self.file("in.ply", samples.ply(order)))
-            uv = by_vertex(mesh)
-            uv[2] += 1
-            mesh.save(self.folder / "out.ply", uv)
-            again = files.read(self.folder / "out.ply")
-            self.assertEqual(len(again.starts), len(mesh.starts) + 1)
-            np.testing.assert_array_equal(again.faces, mesh.faces)
-            np.testing.assert_allclose(again.uv, uv, atol=1e-8)
-            quality = again._by_name["face"].columns["quality"][again.polygon]
-            np.testing.assert_allclose(quality, mesh._by_name["face"].columns["quality"][mesh.polygon])
+                    said = mesh.save(self.folder / "out.ply", uv)
+                    self.assertEqual(
+                        (self.folder / "out.ply").read_bytes(),
+                        samples.ply(order, mesh.faces, origins=mesh.polygon, **{place: uv}))
+                    self.assertEqual(["written as triangles" in s for s in said],
+                                     [] if mesh.all_triangles else [True])
 
     def test_new_picture(self):
-        new = self.file("new.png", samples.png(samples.noise(2, 2)))
+        new = self.file("n\u00e4w \u4e00.png", samples.png(samples.noise(2, 2)))
         for order in (None, "<"):
             content = samples.ply(order, list(samples.TRIANGLES), coordinates=True)
             mesh = files.read(self.file("in.ply", content))
             mesh.save(self.folder / "out.ply", by_vertex(mesh), new)
             again = files.read(self.folder / "out.ply")
-            self.assertEqual([p.name for p in again.pictures], ["new.png"])
+            self.assertEqual([p.name for p in again.pictures], [new.name])
+            self.assertEqual(again.pictures[0].read().shape, (2, 2, 4))
             self.assertTrue((again.uv_picture == 0).all())
 
     def test_strips(self):
@@ -309,11 +296,9 @@ class Ply(Folder):
         text = (
             b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
             b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
-            b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n"
-        )
+            b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n")
         np.testing.assert_allclose(
-            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7
-        )
+            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
 
     def test_it_is_cut_off(self):
         for order in (None, "<", ">"):
@@ -400,8 +385,7 @@ class Gltf(Folder):
                 continue
             self.assertEqual(old.json.get(key), new.json.get(key), key)
         self.assertEqual(
-            [m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]]
-        )
+            [m.get("name") for m in old.json["meshes"]], [m.get("name") for m in new.json["meshes"]])
         for (p, was), (q, now) in zip(old.corners(), new.corners(), strict=True):
             for key, rows in was.items():
                 self.assertEqual(rows, now[key], key)
@@ -472,9 +456,7 @@ class Gltf(Folder):
                 [
                     n @ (m - 0.5)
                     for n, m in zip(
-                        areas(samples.CUBE, samples.TRIANGLES), samples.CUBE[samples.TRIANGLES].mean(1)
-                    )
-                ]
+                        areas(samples.CUBE, samples.TRIANGLES), samples.CUBE[samples.TRIANGLES].mean(1))]
             ).tolist(),
         )
         np.testing.assert_array_equal(mesh.sized_vertices()[mesh.parts[1].vertices],
@@ -503,8 +485,7 @@ class Gltf(Folder):
         self.assertEqual(now[0, "TEXCOORD_1"], old[0, "TEXCOORD_0"])
         self.assertEqual(now[0, "COLOR_0"], old[0, "COLOR_0"])  # it multiplies the picture, as before
         self.assertEqual(
-            plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}}
-        )
+            plain["pbrMetallicRoughness"], {"metallicFactor": 0, "baseColorTexture": {"index": shown}})
         self.assertEqual(out.json["materials"][:2], Attributes(path).json["materials"])
         for mesh in out.json["meshes"]:
             for primitive in mesh["primitives"]:
@@ -526,8 +507,7 @@ class Gltf(Folder):
     def test_colours_are_linear(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
         np.testing.assert_array_equal(
-            np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1))
-        )
+            np.rint(255 * mesh.corner_colours()[12:24]), np.tile([79, 229, 79, 255], (12, 3, 1)))
         self.assertEqual(np.rint(255 * mesh.material_colours[0]).tolist()[:3], [188, 255, 255])
 
     def test_compression_is_named(self):
@@ -554,8 +534,7 @@ class Gltf(Folder):
 
     def test_quantized(self):
         out = samples.Gltf(
-            extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"]
-        )
+            extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"])
         out.node(out.mesh({"attributes": {"POSITION": out.accessor(
             np.array([(0, 0, 0), (127, 0, 0), (0, -127, 0)], "i1"), padding=1, normalized=True)}}))
         mesh = files.read(self.file("in.glb", out.glb()))
@@ -601,8 +580,7 @@ class Validator(Folder):
             "const v=require('gltf-validator'),fs=require('fs');(async()=>{"
             "for(const f of process.argv.slice(1)){"
             "const r=await v.validateBytes(new Uint8Array(fs.readFileSync(f)));"
-            "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()"
-        )
+            "for(const m of r.issues.messages)if(m.severity==0)console.log(f,m.code,m.pointer)}})()")
         run = subprocess.run(
             [node, "-e", script, "--", *map(str, written)],
             capture_output=True,
@@ -618,8 +596,7 @@ class ThreeMf(Folder):
         mesh = files.read(self.file("in.3mf", samples.threemf()))
         self.assertEqual(len(mesh.faces), 24)
         self.assertEqual(
-            [(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)]
-        )
+            [(p.name, p.scale, p.mirrored) for p in mesh.parts], [("one", 1, False), ("two", 2, True)])
         colours = np.rint(255 * mesh.corner_colours())
         self.assertEqual(colours[0].tolist(), [[255, 0, 0, 255], [0, 255, 0, 128], [255, 0, 0, 255]])
         self.assertEqual(colours[5].tolist(), [[255] * 4] * 3)
@@ -688,8 +665,16 @@ class Others(Folder):
                             continue
                         if path.suffix != ".3mf" or ending == ".3mf":  # 3MF places its objects
                             np.testing.assert_allclose(
-                                again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6
-                            )
+                                again.vertices[again.faces], mesh.vertices[mesh.faces], atol=1e-6)
+
+    def test_colours_that_go_are_said(self):
+        mesh = files.read(self.file("in.off", samples.off(False)))
+        mesh.face_colours[::4, 0] = 1
+        said = {e: mesh.save(self.folder / f"out{e}", by_vertex(mesh)) for e in files.WRITES}
+        self.assertTrue(all("colours of faces" in said[e][0] for e in (".obj", ".ply", ".3mf")))
+        self.assertEqual(said[".glb"], [])
+        np.testing.assert_allclose(files.read(self.folder / "out.glb").corner_colours(), mesh.corner_colours(),
+                                   atol=1e-6)
 
     def test_a_scene_is_placed(self):
         mesh = files.read(self.file("rich.glb", samples.rich().glb()))
@@ -703,17 +688,14 @@ class Others(Folder):
 
     def test_quads_stay_quads(self):
         mesh = files.read(self.file("in.off", samples.off()))
-        for ending in (".obj", ".ply"):
-            mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
-            again = files.read(self.folder / f"out{ending}")
-            self.assertEqual(np.diff(again.starts).tolist(), [4] * 6)
+        mesh.save(self.folder / "out.obj", by_vertex(mesh))
+        self.assertEqual(np.diff(files.read(self.folder / "out.obj").starts).tolist(), [4] * 6)
 
     def test_normals_and_colours_are_carried(self):
         mesh = files.read(self.file("in.ply", samples.ply("<", list(samples.TRIANGLES))))
         mesh._by_name["vertex"].types.update(ny=("f4", None), nz=("f4", None))
         mesh._by_name["vertex"].columns.update(
-            nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4")
-        )
+            nx=np.ones(8, "f4"), ny=np.zeros(8, "f4"), nz=np.zeros(8, "f4"))
         mesh.save(self.folder / "out.glb", by_vertex(mesh))
         out = next(Attributes(self.folder / "out.glb").corners())[1]
         self.assertEqual(set(out[0, "NORMAL"]), {struct.pack("<3f", 1, 0, 0)})
@@ -727,8 +709,7 @@ class Others(Folder):
         for ending in files.WRITES:
             mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
             np.testing.assert_allclose(
-                files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6
-            )
+                files.read(self.folder / f"out{ending}").uv, by_vertex(mesh), atol=1e-6)
 
 
 class Refined(Folder):
@@ -741,8 +722,7 @@ class Refined(Folder):
                 with self.subTest(path=path.name, ending=ending):
                     new = self.file("new.png", samples.png(samples.noise(2, 2)))
                     mesh.save(
-                        self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights)
-                    )
+                        self.folder / f"out{ending}", uv, new, refined=(vertices, faces, origin, weights))
                     again = files.read(self.folder / f"out{ending}")
                     self.assertEqual(len(again.faces), len(faces))
                     np.testing.assert_allclose(again.uv, uv, atol=1e-6)
@@ -998,6 +978,97 @@ class Handed(Gltf):
     test_rich = test_a_gltf_keeps_its_data = test_a_mirrored_mesh_is_mapped_as_it_is_seen = None
     test_new_picture = test_set = test_colours_are_linear = test_compression_is_named = None
     test_transform_of_a_texture = test_quantized = None
+
+
+class OtherReaders(Folder):
+    """PyMeshLab, trimesh and Blender find the same faces and coordinates in what is written."""
+
+    def test_pymeshlab(self):
+        try:
+            import pymeshlab
+        except ImportError:
+            self.skipTest("SKIPPED: PyMeshLab is not installed")
+        for path in self.all_samples():
+            if path.suffix == ".ply" and b"extra" in path.read_bytes() or path.name == "all.obj":
+                continue  # PyMeshLab reads no lists of vertices, and ends at faces of six corners
+            mesh = files.read(path)
+            for ending in (".obj", ".ply"):
+                out = self.folder / f"out_{path.stem}{path.suffix[1:]}{ending}"
+                uv, new = by_corner(mesh), self.folder / "a b.png"
+                mesh.save(out, uv, shutil.copy(new, self.folder / "shown.png"))
+                host = pymeshlab.MeshSet()
+                host.load_new_mesh(str(out))
+                host.meshing_poly_to_tri()
+                read = host.current_mesh()
+                self.assertEqual(read.face_number(), len(mesh.faces), out.name)
+                found = read.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+                own = files.read(out)
+                points = read.vertex_matrix()[read.face_matrix()]
+                self.assertEqual(rows(points, found), rows(own.vertices[own.faces], uv), out.name)
+
+    def test_trimesh(self):
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("SKIPPED: trimesh is not installed")
+        for path in self.all_samples():
+            mesh = files.read(path)
+            out, uv = self.folder / "out.glb", by_corner(mesh)
+            mesh.save(out, uv, self.folder / "a b.png")
+            scene = trimesh.load_scene(out, process=False)
+            found, points = [], []
+            for part in scene.geometry.values():
+                if hasattr(part, "faces"):
+                    found.append(part.visual.uv[part.faces])
+                    points.append(part.vertices[part.faces])
+            again = files.read(out)
+            np.testing.assert_allclose(again.uv, uv, atol=1e-6)
+            own = np.concatenate([self.of_file(again, uv, p) for p in again.parts])
+            self.assertEqual(rows(np.concatenate(points), np.concatenate(found), 4),
+                             rows(own[..., :3], own[..., 3:], 4), path.name)
+
+    def test_blender(self):
+        try:
+            import bpy
+        except ImportError:
+            self.skipTest("SKIPPED: Blender (bpy) is not installed")
+        self.all_samples()
+        for name in ("even.ply", "cube.stl", "cube.off", "cube.3mf"):
+            mesh = files.read(self.folder / name)
+            for ending in (".obj", ".glb"):
+                out, uv = self.folder / f"out{ending}", by_corner(mesh)
+                mesh.save(out, uv, self.folder / "a b.png")
+                bpy.ops.wm.read_factory_settings(use_empty=True)
+                if ending == ".obj":
+                    bpy.ops.wm.obj_import(filepath=str(out), forward_axis="Y", up_axis="Z")
+                else:
+                    bpy.ops.import_scene.gltf(filepath=str(out))
+                read, = (o.data for o in bpy.data.objects if o.type == "MESH")
+                read.calc_loop_triangles()
+                loops = np.array([t.loops for t in read.loop_triangles])
+                points = np.array([read.vertices[i.vertex_index].co for i in read.loops])[loops]
+                found = np.array([d.uv for d in read.uv_layers[0].data])[loops]
+                if ending == ".glb":  # y is up in glTF
+                    points = points[..., [0, 2, 1]] * [1, 1, -1]
+                own = files.read(out)
+                self.assertEqual(len(read.polygons), len(own.starts) - 1)
+                self.assertEqual(rows(points, found, 3), rows(own.vertices[own.faces], uv, 3), out.name)
+
+    @staticmethod
+    def of_file(mesh, uv, part):
+        """(f, 3, 5) A part as its file has it, where mirrored ones are not turned."""
+        corners = np.concatenate([mesh.vertices[mesh.faces[part.faces]], uv[part.faces]], 2)
+        return corners[:, [0, 2, 1]] * [-1, 1, 1, 1, 1] if part.mirrored else corners
+
+
+def rows(points, uv, digits=5):
+    """Triangles without their order: corners rounded, the smallest first."""
+    corners = np.round(np.concatenate([points, uv], 2).astype(float), digits) + 0.0
+    found = []
+    for triangle in corners.tolist():
+        first = triangle.index(min(triangle))
+        found.append(triangle[first:] + triangle[:first])
+    return sorted(found)
 
 
 if __name__ == "__main__":

@@ -717,6 +717,28 @@ class Functions(unittest.TestCase):
                         other.mesh_set.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2),
                         result.uv))
 
+    def test_copies_write_the_file(self):
+        """With all that it holds, also where triangles are refined; without it the mesh alone."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = {name: os.path.join(folder, name) for name in ("in.obj", "one.obj", "two.obj", "in.glb")}
+            flatten(arrays(meshes.hill())).save(path["in.glb"])
+            with open(path["in.obj"], "w", encoding="utf-8") as target:
+                target.write("# by hand\no thing\n" + "".join("v %r %r %r\n" % v for v in meshes.hill().vertices))
+                target.write("".join("f %d %d %d\n" % tuple(v + 1 for v in f) for f in meshes.hill().faces))
+            for given in ("in.obj", "in.glb"):
+                for output in ("Keep the mesh", "Common refinement"):
+                    result = flatten(path[given], output_triangulation=output)
+                    copied = pickle.loads(pickle.dumps(result))
+                    for one, name in ((result, "one.obj"), (copied, "two.obj")):
+                        one.save(path[name])
+                    with open(path["one.obj"], "rb") as one, open(path["two.obj"], "rb") as two:
+                        text = one.read()
+                        self.assertEqual(text, two.read())
+                    self.assertEqual(b"# by hand\no thing\n" in text, given == "in.obj")
+            os.remove(path["in.glb"])
+            copied.save(path["two.obj"])
+            self.assertEqual(len(flatten(path["two.obj"]).faces), len(copied.faces))
+
     def test_picture(self):
         """The charts as SVG: the area inside the outlines is that of the faces in the plane."""
         result = flatten(arrays(meshes.double_torus()))
@@ -784,6 +806,20 @@ class Functions(unittest.TestCase):
             self.assertEqual(sorted(os.listdir(folder)),
                              ["broken.ply", "hill.csv", "hill.html", "meshes"])
             os.chdir(before)
+
+    def test_formats_without_shared_vertices(self):
+        """A surface of STL is one, unless its faces are wanted apart."""
+        vertices, faces = arrays(meshes.double_torus())
+        rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+        rows["corners"] = vertices[faces]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "slab.stl")
+            with open(path, "wb") as target:
+                target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+            result = flatten(path)
+            self.assertEqual((result.genus, result.components), (2, 1))
+            self.assertEqual(result.charts, flatten(vertices, faces).charts)
+            self.assertEqual(flatten(path, join_vertices="Never").components, len(faces))
 
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))

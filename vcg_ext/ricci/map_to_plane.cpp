@@ -25,8 +25,10 @@ constexpr double kMaxCurvatureBetween = 0.25;
 constexpr double kPoorCost = 6.0;
 
 /// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
-/// spread of areas below these are tried: the linear model promises too much where scales differ much.
-constexpr double kSpreadsInstead[] = {0.5, 0.25};
+/// spread of areas below these are tried: the linear model promises too much where scales differ much. The first of
+/// them is tried where the map costs so much more than was expected, mostly for charts that cover themselves.
+constexpr double kSpreadsInstead[] = {0.25, 0.5};
+constexpr double kBrokenPromise = 0.05;
 
 /// Whether Automatic may do without a flow of a whole component: nothing but the default has been asked for that it
 /// would have to give.
@@ -70,12 +72,14 @@ Parametrization chosen(const std::string& choice, Parametrization map)
 	return map;
 }
 
-/// Maps with other cones where that of the cheapest ones is poor.
+/// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
+/// \param expected what it was expected to cost
 /// \param alternative what another map costs
 Parametrization withOtherCones(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
+	double expected,
 	double alternative,
 	Parametrization map)
 {
@@ -83,7 +87,9 @@ Parametrization withOtherCones(
 		goalOf(options.cones) != ConeGoal::LeastCost)
 		return map;
 	for (const double spread : kSpreadsInstead) {
-		if (std::min(costOf(map).total(), alternative) <= kPoorCost)
+		const double cost = std::min(costOf(map).total(), alternative);
+		const bool isFirst = spread == kSpreadsInstead[0];
+		if (cost <= kPoorCost && !(isFirst && cost > expected + kBrokenPromise))
 			break;
 		Options other = options;
 		other.cones.distortion = spread;
@@ -206,11 +212,12 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			return chosen(choice, *std::move(unfolded));
 		}
 	}
+	const double expected = plan.target.expected ? plan.target.expected->total() : kInfinity;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
 	unfoldIfPoor(costOf(map).total());
-	map = withOtherCones(component, input, options, totalOf(unfolded), std::move(map));
+	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
 	if (!unfolded)
 		return map;
 	const std::string whole = "as a whole: " + costText(map);

@@ -69,66 +69,45 @@ class Parametrization:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture
-        has drawn. What was in the file that the mesh is from stays; a PLY file gets the quality
-        too."""
+        has drawn. What else was in the file that the mesh is from stays."""
     def save_layer(self, kind: str, path: Union[str, os.PathLike[str]]) -> None:
         """Writes one of the layers to a PLY file."""
 
 class Flattening(Parametrization):
     converged: bool
-    """always true; anything else is an error; Newton steps of all solves, including discarded
-    candidates"""
+    """always true, because anything else is an error"""
     iterations: int
-    """always true; anything else is an error; Newton steps of all solves, including discarded
-    candidates"""
+    """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
-    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
-    permits"""
+    """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
-    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
-    permits"""
+    """the smallest residual that rounding permits"""
     lengthened: float
     """0, except where a face has no area or one side a million times shorter than another: the
     solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
     is added (1: of an edge without length)"""
     qc_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """angle distortion σ₁/σ₂ (1: none), mean over faces, excluding faces whose height is below
+    1e-9 of their side or that have no area in the plane"""
     qc_area_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, mean by area on the mesh"""
     qc_p99: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, 99th percentile"""
     qc_max: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, largest"""
     qc_vertex_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, mean over vertices: the paper's number"""
     area_distortion_mean: float
-    """with s = a face's share of the area in the plane over its share in space, weighted by
-    area in space: mean of max(s, 1/s), 1 if there is no area distortion; standard deviation of
-    ln s"""
+    """mean of max(s, 1/s), s = a face's share of the area in the plane over its share in space,
+    weighted by area in space (1: no area distortion)"""
     area_distortion_spread: float
-    """with s = a face's share of the area in the plane over its share in space, weighted by
-    area in space: mean of max(s, 1/s), 1 if there is no area distortion; standard deviation of
-    ln s"""
+    """standard deviation of ln s, weighted likewise"""
     stretch: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
-    (length of all seams) / √area"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map
+    (4: none), excluding faces lower than a texel of the largest texture (1/16384 of √area)
+    unless together they cover a row of texels"""
     objective: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
-    (length of all seams) / √area"""
+    """what Automatic minimises: stretch + 0.05 × (length of all seams) / √area"""
     target_used: int
     """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
     free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
@@ -141,17 +120,14 @@ class Flattening(Parametrization):
     cone_curvatures: Floats
     """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     boundary_ratio_min: float
-    """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
-    length in the map at real size to that on the mesh; 1 unless the finish moves it"""
+    """Euclidean filter, free boundary: the smallest ratio of a boundary edge's length in the
+    map at real size to that on the mesh, 1 unless the finish moves it"""
     boundary_ratio_max: float
-    """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
-    length in the map at real size to that on the mesh; 1 unless the finish moves it"""
+    """the largest such ratio"""
     flipped_faces: int
-    """faces that are flipped or have no area in the plane; additional ones after rounding to
-    float"""
+    """faces that are flipped or have no area in the plane"""
     flipped_by_rounding: int
-    """faces that are flipped or have no area in the plane; additional ones after rounding to
-    float"""
+    """additional ones after rounding to float"""
     finish_moved: int
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
@@ -160,17 +136,13 @@ class Flattening(Parametrization):
     disks) that stopped at their work limit: the map is valid and could be slightly better; the
     log says which"""
     flips: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """points of the common refinement that are not vertices of the mesh"""
     edge_swaps: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """swaps made by Edge swaps"""
     boundary_splits: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """boundary edges that it split"""
     euler_characteristic: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
@@ -180,52 +152,34 @@ class Flattening(Parametrization):
     components: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     cut_nonmanifold_edges: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """vertices with several triangle fans, and so several places in the map"""
     duplicate_faces: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """faces that duplicate another, each a separate sheet"""
     one_sided_components: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """components cut along short one-sided loops"""
     degenerate_faces: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """faces drawn as a segment or a point"""
     cones: int
     """interior vertices that are not flat"""
     chosen_seam_edges: int
-    """edges opened by seams, and their length on the mesh; edges on its border do not count"""
+    """edges opened by seams, without those on its border"""
     chosen_seam_length: float
-    """edges opened by seams, and their length on the mesh; edges on its border do not count"""
+    """their length on the mesh"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """charts (UV islands); packing efficiency: fraction of the unit square (without
-    normalize_uv, of the square around all charts) that the charts cover"""
+    """charts (UV islands)"""
     occupancy: float
-    """charts (UV islands); packing efficiency: fraction of the unit square (without
-    normalize_uv, of the square around all charts) that the charts cover"""
+    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
+    around all charts) that the charts cover"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
-    """faces that overlap another one in the stored floats, in their own chart or not; the
-    charts that contain them"""
+    """charts with faces that overlap in the stored floats"""
     overlapping_faces: int
-    """faces that overlap another one in the stored floats, in their own chart or not; the
-    charts that contain them"""
+    """faces that overlap another one, in their own chart or not"""
     unequal_seams: int
     """seam edges whose two sides differ in (hyperbolic) length by more than 1/1000 in the
     stored floats, because flipped faces next to them were repaired or by finish Least
@@ -234,36 +188,27 @@ class Flattening(Parametrization):
     """output edges cut to separate these, to pack better, or around faces that floats cannot
     represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
-    """length of seam_edges and overlap_cuts on the mesh, in its units; over the square root of
-    its area"""
+    """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float
-    """length of seam_edges and overlap_cuts on the mesh, in its units; over the square root of
-    its area"""
+    """the same, over the square root of its area"""
     torus_tau_re: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """flat torus: real part of its modulus in the fundamental domain"""
     torus_tau_im: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """imaginary part of this modulus"""
     annulus_modulus: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """rectangle: longer side over shorter side"""
     holonomy_error: float
     """with cone_rounding 1, except for Edge swaps: the largest distance of the rotation across
     a seam from a multiple of π/2, in radians"""
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target; bound of its error: the largest distance, as logarithm, of the energies of
-    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
+    matrix, g × g, row by row, which belongs to the mesh's own flat faces and does not depend on
+    the target"""
     period_error: float
-    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target; bound of its error: the largest distance, as logarithm, of the energies of
-    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
+    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
+    (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
     """with carry_texture, of faces that had a texture: texels of the new one per unit of length
     over those of the old one, mean by area"""
@@ -278,59 +223,39 @@ class Uniformization(Parametrization):
     disk: Complex
     """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""
     converged: bool
-    """always true; anything else is an error; Newton steps of all solves, including discarded
-    candidates"""
+    """always true, because anything else is an error"""
     iterations: int
-    """always true; anything else is an error; Newton steps of all solves, including discarded
-    candidates"""
+    """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
-    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
-    permits"""
+    """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
-    """max|K̄ − K| in radians where K is prescribed; the smallest residual that rounding
-    permits"""
+    """the smallest residual that rounding permits"""
     lengthened: float
     """0, except where a face has no area or one side a million times shorter than another: the
     solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
     is added (1: of an edge without length)"""
     qc_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """angle distortion σ₁/σ₂ (1: none), mean over faces, excluding faces whose height is below
+    1e-9 of their side or that have no area in the plane"""
     qc_area_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, mean by area on the mesh"""
     qc_p99: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, 99th percentile"""
     qc_max: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, largest"""
     qc_vertex_mean: float
-    """angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th
-    percentile, largest; mean over vertices, which is the paper's number. The first four exclude
-    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
+    """the same, mean over vertices: the paper's number"""
     area_distortion_mean: float
-    """with s = a face's share of the area in the plane over its share in space, weighted by
-    area in space: mean of max(s, 1/s), 1 if there is no area distortion; standard deviation of
-    ln s"""
+    """mean of max(s, 1/s), s = a face's share of the area in the plane over its share in space,
+    weighted by area in space (1: no area distortion)"""
     area_distortion_spread: float
-    """with s = a face's share of the area in the plane over its share in space, weighted by
-    area in space: mean of max(s, 1/s), 1 if there is no area distortion; standard deviation of
-    ln s"""
+    """standard deviation of ln s, weighted likewise"""
     stretch: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
-    (length of all seams) / √area"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map
+    (4: none), excluding faces lower than a texel of the largest texture (1/16384 of √area)
+    unless together they cover a row of texels"""
     objective: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4: none. It excludes faces lower than a texel of the largest texture (1/16384 of √area),
-    unless together they cover a row of texels. What Automatic minimises: stretch + 0.05 ×
-    (length of all seams) / √area"""
+    """what Automatic minimises: stretch + 0.05 × (length of all seams) / √area"""
     target_used: int
     """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
     free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
@@ -343,17 +268,14 @@ class Uniformization(Parametrization):
     cone_curvatures: Floats
     """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     boundary_ratio_min: float
-    """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
-    length in the map at real size to that on the mesh; 1 unless the finish moves it"""
+    """Euclidean filter, free boundary: the smallest ratio of a boundary edge's length in the
+    map at real size to that on the mesh, 1 unless the finish moves it"""
     boundary_ratio_max: float
-    """Euclidean filter, free boundary: the smallest and the largest ratio of a boundary edge's
-    length in the map at real size to that on the mesh; 1 unless the finish moves it"""
+    """the largest such ratio"""
     flipped_faces: int
-    """faces that are flipped or have no area in the plane; additional ones after rounding to
-    float"""
+    """faces that are flipped or have no area in the plane"""
     flipped_by_rounding: int
-    """faces that are flipped or have no area in the plane; additional ones after rounding to
-    float"""
+    """additional ones after rounding to float"""
     finish_moved: int
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
@@ -362,17 +284,13 @@ class Uniformization(Parametrization):
     disks) that stopped at their work limit: the map is valid and could be slightly better; the
     log says which"""
     flips: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """points of the common refinement that are not vertices of the mesh"""
     edge_swaps: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """swaps made by Edge swaps"""
     boundary_splits: int
-    """intrinsic flips, including those before the flow; points of the common refinement that
-    are not vertices of the mesh; swaps and splits made by Edge swaps"""
+    """boundary edges that it split"""
     euler_characteristic: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
@@ -382,52 +300,34 @@ class Uniformization(Parametrization):
     components: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     cut_nonmanifold_edges: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """vertices with several triangle fans, and so several places in the map"""
     duplicate_faces: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """faces that duplicate another, each a separate sheet"""
     one_sided_components: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """components cut along short one-sided loops"""
     degenerate_faces: int
-    """what was cut where the input is not an oriented manifold: edges with more than two faces,
-    or with two that duplicate each other; vertices with several triangle fans, and so several
-    places in the map; faces that duplicate another, each a separate sheet; components cut along
-    short one-sided loops; faces drawn as a segment or a point"""
+    """faces drawn as a segment or a point"""
     cones: int
     """interior vertices that are not flat"""
     chosen_seam_edges: int
-    """edges opened by seams, and their length on the mesh; edges on its border do not count"""
+    """edges opened by seams, without those on its border"""
     chosen_seam_length: float
-    """edges opened by seams, and their length on the mesh; edges on its border do not count"""
+    """their length on the mesh"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """charts (UV islands); packing efficiency: fraction of the unit square (without
-    normalize_uv, of the square around all charts) that the charts cover"""
+    """charts (UV islands)"""
     occupancy: float
-    """charts (UV islands); packing efficiency: fraction of the unit square (without
-    normalize_uv, of the square around all charts) that the charts cover"""
+    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
+    around all charts) that the charts cover"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
-    """faces that overlap another one in the stored floats, in their own chart or not; the
-    charts that contain them"""
+    """charts with faces that overlap in the stored floats"""
     overlapping_faces: int
-    """faces that overlap another one in the stored floats, in their own chart or not; the
-    charts that contain them"""
+    """faces that overlap another one, in their own chart or not"""
     unequal_seams: int
     """seam edges whose two sides differ in (hyperbolic) length by more than 1/1000 in the
     stored floats, because flipped faces next to them were repaired or by finish Least
@@ -436,36 +336,27 @@ class Uniformization(Parametrization):
     """output edges cut to separate these, to pack better, or around faces that floats cannot
     represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
-    """length of seam_edges and overlap_cuts on the mesh, in its units; over the square root of
-    its area"""
+    """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float
-    """length of seam_edges and overlap_cuts on the mesh, in its units; over the square root of
-    its area"""
+    """the same, over the square root of its area"""
     torus_tau_re: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """flat torus: real part of its modulus in the fundamental domain"""
     torus_tau_im: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """imaginary part of this modulus"""
     annulus_modulus: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
-    """flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) / 2π;
-    rectangle: longer side over shorter side"""
+    """rectangle: longer side over shorter side"""
     holonomy_error: float
     """with cone_rounding 1, except for Edge swaps: the largest distance of the rotation across
     a seam from a multiple of π/2, in radians"""
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target; bound of its error: the largest distance, as logarithm, of the energies of
-    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
+    matrix, g × g, row by row, which belongs to the mesh's own flat faces and does not depend on
+    the target"""
     period_error: float
-    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it belongs to the mesh's own flat faces and does not depend on
-    the target; bound of its error: the largest distance, as logarithm, of the energies of
-    harmonic forms (genus 1: the distance in the hyperbolic plane)"""
+    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
+    (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
     """with carry_texture, of faces that had a texture: texels of the new one per unit of length
     over those of the old one, mean by area"""

@@ -24,7 +24,6 @@ import argparse
 import errno
 import importlib.util
 import os
-import re
 import sys
 
 from . import __version__, _batch

@@ -7,6 +7,8 @@ import sys
 
 import numpy
 
+from ._errors import Refused
+
 # Of the formats that PyMeshLab or trimesh read, those that hold faces.
 OTHER_ENDINGS = tuple(".3ds .asc .bre .ctm .dae .fbx .ptx .qobj .vmi .wrl .x3d .x3dv".split())
 
@@ -37,8 +39,20 @@ class Given:
         return self.arrays["faces"]
 
     def read_pictures(self, are_drawn):
-        """Pairs of names and arrays; without arrays where the run draws nothing."""
-        return [(picture.name, picture.read() if are_drawn else None) for picture in self.pictures]
+        """Pairs of names and arrays; without arrays where the run draws nothing. One that cannot be
+        read is a Refused."""
+        from .files import FileError
+        try:
+            return [(picture.name, _without_alpha(picture.read()) if are_drawn else None)
+                    for picture in self.pictures]
+        except FileError as problem:
+            raise Refused(str(problem)) from None
+
+
+def _without_alpha(picture):
+    """Of a picture that is opaque."""
+    is_opaque = picture.shape[2] == 4 and (picture[..., 3] == numpy.iinfo(picture.dtype).max).all()
+    return picture[..., :3] if is_opaque else picture
 
 
 def checked_arrays(vertices, faces):

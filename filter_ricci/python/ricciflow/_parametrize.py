@@ -48,7 +48,7 @@ class Parametrization:
         self.log, self.messages = list(log), list(messages)
         self._layers = layers_of(outputs)
         self._origin = outputs.get("face_of_origin")
-        self._name, self._file, self._texture = name, file, texture
+        self._name, self._file, self._path, self._texture = name, file, None, texture
         self._mesh_set, self._is_hosted = mesh_set, mesh_set is not None
 
     def __repr__(self):
@@ -62,7 +62,9 @@ class Parametrization:
         return f"{charts(points, corners)}<br><code>{html.escape(repr(self))}</code>"
 
     def __getstate__(self):
-        return {**self.__dict__, "_mesh_set": None}
+        # A file is read again where it is needed: what was read may be large.
+        path = self._path if self._file is None else str(self._file.path)
+        return {**self.__dict__, "_mesh_set": None, "_file": None, "_path": path}
 
     @property
     def layers(self):
@@ -90,7 +92,8 @@ class Parametrization:
 
     def save(self, path):
         """Writes the mesh with its texture coordinates, and with the texture that carry_texture has
-        drawn. What was in the file that the mesh is from stays; a PLY file gets the quality too."""
+        drawn. What else was in the file that the mesh is from stays. A mesh of a MeshSet is written by
+        PyMeshLab where the path ends in .ply or .obj."""
         from . import files
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() not in files.WRITES:
@@ -102,9 +105,9 @@ class Parametrization:
             from . import pymeshlab
             pymeshlab.save(self._mesh_set, path)
             return
-        file = self._file or files.plain(self.vertices, self.faces)
+        file = self._file or self._read_again() or files.plain(self.vertices, self.faces)
         refined = None
-        if self._file is not None and len(self.faces) != len(file.faces):
+        if len(self.faces) != len(file.faces):
             refined = (self.vertices, self.faces, self._origin, self._weights(file))
         try:
             said = file.save(path, self.uv, self._texture or None, refined=refined)
@@ -112,6 +115,16 @@ class Parametrization:
             raise OSError(str(problem)) from None
         for sentence in said:
             warnings.warn(sentence, RicciWarning, stacklevel=2)
+
+    def _read_again(self):
+        """The file of a copy, if the mesh is still the one that is there."""
+        from . import files
+        try:
+            file = files.read(self._path) if self._path else None
+        except files.FileError:
+            return None
+        same = file is not None and numpy.array_equal(file.vertices, self.vertices[:len(file.vertices)])
+        return file if same else None
 
     def _weights(self, file):
         """(F, 3, 3) barycentric coordinates of the corners in the faces of the file."""
@@ -256,6 +269,8 @@ def _solve(function, mesh, faces, progress, keywords, parameters):
     else:
         given = _loading.given(mesh, faces)
         with_keywords(given, **keywords, parameters=parameters)
+        if given.file is not None and given.file.split:
+            parameters.setdefault("join_vertices", "Always")
         outputs, log, messages = run_arrays(number, given, parameters, progress)
         result = kind(outputs, log, messages, given.name, given.file,
                       parameters.get("carry_texture", ""))

@@ -3,65 +3,32 @@
 # Made by document_filters.py.
 
 EUCLIDEAN_RESULTS = \
-{'converged': ('bool',
-               'always true; anything else is an error; Newton steps of all solves, including '
-               'discarded candidates'),
- 'iterations': ('int',
-                'always true; anything else is an error; Newton steps of all solves, including '
-                'discarded candidates'),
- 'max_curvature_error': ('float',
-                         'max|K̄ − K| in radians where K is prescribed; the smallest residual '
-                         'that rounding permits'),
- 'residual_floor': ('float',
-                    'max|K̄ − K| in radians where K is prescribed; the smallest residual that '
-                    'rounding permits'),
+{'converged': ('bool', 'always true, because anything else is an error'),
+ 'iterations': ('int', 'Newton steps of all solves, including discarded candidates'),
+ 'max_curvature_error': ('float', 'max|K̄ − K| in radians where K is prescribed'),
+ 'residual_floor': ('float', 'the smallest residual that rounding permits'),
  'lengthened': ('float',
                 '0, except where a face has no area or one side a million times shorter than '
                 'another: the solver lengthens the edges at its vertices, and this is the '
                 'largest fraction of an edge that is added (1: of an edge without length)'),
  'qc_mean': ('float',
-             'angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, '
-             "99th percentile, largest; mean over vertices, which is the paper's number. The "
-             'first four exclude faces whose height is below 1e-9 of their side, and faces '
-             'without area in the plane'),
- 'qc_area_mean': ('float',
-                  'angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the '
-                  "mesh, 99th percentile, largest; mean over vertices, which is the paper's "
-                  'number. The first four exclude faces whose height is below 1e-9 of their '
-                  'side, and faces without area in the plane'),
- 'qc_p99': ('float',
-            'angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th '
-            "percentile, largest; mean over vertices, which is the paper's number. The first "
-            'four exclude faces whose height is below 1e-9 of their side, and faces without '
-            'area in the plane'),
- 'qc_max': ('float',
-            'angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the mesh, 99th '
-            "percentile, largest; mean over vertices, which is the paper's number. The first "
-            'four exclude faces whose height is below 1e-9 of their side, and faces without '
-            'area in the plane'),
- 'qc_vertex_mean': ('float',
-                    'angle distortion σ₁/σ₂ (1: none): mean over faces, mean by area on the '
-                    "mesh, 99th percentile, largest; mean over vertices, which is the paper's "
-                    'number. The first four exclude faces whose height is below 1e-9 of their '
-                    'side, and faces without area in the plane'),
+             'angle distortion σ₁/σ₂ (1: none), mean over faces, excluding faces whose height '
+             'is below 1e-9 of their side or that have no area in the plane'),
+ 'qc_area_mean': ('float', 'the same, mean by area on the mesh'),
+ 'qc_p99': ('float', 'the same, 99th percentile'),
+ 'qc_max': ('float', 'the same, largest'),
+ 'qc_vertex_mean': ('float', "the same, mean over vertices: the paper's number"),
  'area_distortion_mean': ('float',
-                          "with s = a face's share of the area in the plane over its share in "
-                          'space, weighted by area in space: mean of max(s, 1/s), 1 if there '
-                          'is no area distortion; standard deviation of ln s'),
- 'area_distortion_spread': ('float',
-                            "with s = a face's share of the area in the plane over its share "
-                            'in space, weighted by area in space: mean of max(s, 1/s), 1 if '
-                            'there is no area distortion; standard deviation of ln s'),
+                          "mean of max(s, 1/s), s = a face's share of the area in the plane "
+                          'over its share in space, weighted by area in space (1: no area '
+                          'distortion)'),
+ 'area_distortion_spread': ('float', 'standard deviation of ln s, weighted likewise'),
  'stretch': ('float',
              'Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of '
-             'the map: 4: none. It excludes faces lower than a texel of the largest texture '
-             '(1/16384 of √area), unless together they cover a row of texels. What Automatic '
-             'minimises: stretch + 0.05 × (length of all seams) / √area'),
+             'the map (4: none), excluding faces lower than a texel of the largest texture '
+             '(1/16384 of √area) unless together they cover a row of texels'),
  'objective': ('float',
-               'Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale '
-               'of the map: 4: none. It excludes faces lower than a texel of the largest '
-               'texture (1/16384 of √area), unless together they cover a row of texels. What '
-               'Automatic minimises: stretch + 0.05 × (length of all seams) / √area'),
+               'what Automatic minimises: stretch + 0.05 × (length of all seams) / √area'),
  'target_used': ('int',
                  'Euclidean filter: the target of the final map: the number of a '
                  'target_curvature, or 7: free boundary without cones, 8: boundary prescribed '
@@ -76,19 +43,12 @@ EUCLIDEAN_RESULTS = \
                      'Euclidean filter: the vertices of the placed cones, and their curvatures '
                      'in radians'),
  'boundary_ratio_min': ('float',
-                        'Euclidean filter, free boundary: the smallest and the largest ratio '
-                        "of a boundary edge's length in the map at real size to that on the "
-                        'mesh; 1 unless the finish moves it'),
- 'boundary_ratio_max': ('float',
-                        'Euclidean filter, free boundary: the smallest and the largest ratio '
-                        "of a boundary edge's length in the map at real size to that on the "
-                        'mesh; 1 unless the finish moves it'),
- 'flipped_faces': ('int',
-                   'faces that are flipped or have no area in the plane; additional ones after '
-                   'rounding to float'),
- 'flipped_by_rounding': ('int',
-                         'faces that are flipped or have no area in the plane; additional ones '
-                         'after rounding to float'),
+                        'Euclidean filter, free boundary: the smallest ratio of a boundary '
+                        "edge's length in the map at real size to that on the mesh, 1 unless "
+                        'the finish moves it'),
+ 'boundary_ratio_max': ('float', 'the largest such ratio'),
+ 'flipped_faces': ('int', 'faces that are flipped or have no area in the plane'),
+ 'flipped_by_rounding': ('int', 'additional ones after rounding to float'),
  'finish_moved': ('int',
                   'UV vertices that the repair moved; one that is moved again after rounding '
                   'to float counts twice'),
@@ -96,21 +56,11 @@ EUCLIDEAN_RESULTS = \
                  'searches (cones, repair, least distortion or stretch, cuts for packing, '
                  'division of disks) that stopped at their work limit: the map is valid and '
                  'could be slightly better; the log says which'),
- 'flips': ('int',
-           'intrinsic flips, including those before the flow; points of the common refinement '
-           'that are not vertices of the mesh; swaps and splits made by Edge swaps'),
+ 'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
-                       'intrinsic flips, including those before the flow; points of the common '
-                       'refinement that are not vertices of the mesh; swaps and splits made by '
-                       'Edge swaps'),
- 'edge_swaps': ('int',
-                'intrinsic flips, including those before the flow; points of the common '
-                'refinement that are not vertices of the mesh; swaps and splits made by Edge '
-                'swaps'),
- 'boundary_splits': ('int',
-                     'intrinsic flips, including those before the flow; points of the common '
-                     'refinement that are not vertices of the mesh; swaps and splits made by '
-                     'Edge swaps'),
+                       'points of the common refinement that are not vertices of the mesh'),
+ 'edge_swaps': ('int', 'swaps made by Edge swaps'),
+ 'boundary_splits': ('int', 'boundary edges that it split'),
  'euler_characteristic': ('int',
                           'of the input, cut open where it is not an oriented manifold and at '
                           'the chosen seams'),
@@ -124,58 +74,24 @@ EUCLIDEAN_RESULTS = \
                 'of the input, cut open where it is not an oriented manifold and at the chosen '
                 'seams'),
  'cut_nonmanifold_edges': ('int',
-                           'what was cut where the input is not an oriented manifold: edges '
-                           'with more than two faces, or with two that duplicate each other; '
-                           'vertices with several triangle fans, and so several places in the '
-                           'map; faces that duplicate another, each a separate sheet; '
-                           'components cut along short one-sided loops; faces drawn as a '
-                           'segment or a point'),
+                           'edges cut because they have more than two faces, or two that '
+                           'duplicate each other'),
  'split_vertices': ('int',
-                    'what was cut where the input is not an oriented manifold: edges with more '
-                    'than two faces, or with two that duplicate each other; vertices with '
-                    'several triangle fans, and so several places in the map; faces that '
-                    'duplicate another, each a separate sheet; components cut along short '
-                    'one-sided loops; faces drawn as a segment or a point'),
- 'duplicate_faces': ('int',
-                     'what was cut where the input is not an oriented manifold: edges with '
-                     'more than two faces, or with two that duplicate each other; vertices '
-                     'with several triangle fans, and so several places in the map; faces that '
-                     'duplicate another, each a separate sheet; components cut along short '
-                     'one-sided loops; faces drawn as a segment or a point'),
- 'one_sided_components': ('int',
-                          'what was cut where the input is not an oriented manifold: edges '
-                          'with more than two faces, or with two that duplicate each other; '
-                          'vertices with several triangle fans, and so several places in the '
-                          'map; faces that duplicate another, each a separate sheet; '
-                          'components cut along short one-sided loops; faces drawn as a '
-                          'segment or a point'),
- 'degenerate_faces': ('int',
-                      'what was cut where the input is not an oriented manifold: edges with '
-                      'more than two faces, or with two that duplicate each other; vertices '
-                      'with several triangle fans, and so several places in the map; faces '
-                      'that duplicate another, each a separate sheet; components cut along '
-                      'short one-sided loops; faces drawn as a segment or a point'),
+                    'vertices with several triangle fans, and so several places in the map'),
+ 'duplicate_faces': ('int', 'faces that duplicate another, each a separate sheet'),
+ 'one_sided_components': ('int', 'components cut along short one-sided loops'),
+ 'degenerate_faces': ('int', 'faces drawn as a segment or a point'),
  'cones': ('int', 'interior vertices that are not flat'),
- 'chosen_seam_edges': ('int',
-                       'edges opened by seams, and their length on the mesh; edges on its '
-                       'border do not count'),
- 'chosen_seam_length': ('float',
-                        'edges opened by seams, and their length on the mesh; edges on its '
-                        'border do not count'),
+ 'chosen_seam_edges': ('int', 'edges opened by seams, without those on its border'),
+ 'chosen_seam_length': ('float', 'their length on the mesh'),
  'seam_edges': ('int', 'further edges of the input along which the mesh is cut'),
- 'charts': ('int',
-            'charts (UV islands); packing efficiency: fraction of the unit square (without '
-            'normalize_uv, of the square around all charts) that the charts cover'),
+ 'charts': ('int', 'charts (UV islands)'),
  'occupancy': ('float',
-               'charts (UV islands); packing efficiency: fraction of the unit square (without '
-               'normalize_uv, of the square around all charts) that the charts cover'),
+               'packing efficiency: fraction of the unit square (without normalize_uv, of the '
+               'square around all charts) that the charts cover'),
  'capped_holes': ('int', 'boundary loops closed for the flow'),
- 'overlapping_charts': ('int',
-                        'faces that overlap another one in the stored floats, in their own '
-                        'chart or not; the charts that contain them'),
- 'overlapping_faces': ('int',
-                       'faces that overlap another one in the stored floats, in their own '
-                       'chart or not; the charts that contain them'),
+ 'overlapping_charts': ('int', 'charts with faces that overlap in the stored floats'),
+ 'overlapping_faces': ('int', 'faces that overlap another one, in their own chart or not'),
  'unequal_seams': ('int',
                    'seam edges whose two sides differ in (hyperbolic) length by more than '
                    '1/1000 in the stored floats, because flipped faces next to them were '
@@ -184,39 +100,22 @@ EUCLIDEAN_RESULTS = \
                   'output edges cut to separate these, to pack better, or around faces that '
                   'floats cannot represent in their chart; parts joined elsewhere reduce '
                   'seam_edges'),
- 'seam_length': ('float',
-                 'length of seam_edges and overlap_cuts on the mesh, in its units; over the '
-                 'square root of its area'),
- 'seam_length_relative': ('float',
-                          'length of seam_edges and overlap_cuts on the mesh, in its units; '
-                          'over the square root of its area'),
- 'torus_tau_re': ('float',
-                  'flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) '
-                  '/ 2π; rectangle: longer side over shorter side'),
- 'torus_tau_im': ('float',
-                  'flat torus: its modulus in the fundamental domain; flat annulus: ln(r₂/r₁) '
-                  '/ 2π; rectangle: longer side over shorter side'),
- 'annulus_modulus': ('float',
-                     'flat torus: its modulus in the fundamental domain; flat annulus: '
-                     'ln(r₂/r₁) / 2π; rectangle: longer side over shorter side'),
- 'rectangle_aspect': ('float',
-                      'flat torus: its modulus in the fundamental domain; flat annulus: '
-                      'ln(r₂/r₁) / 2π; rectangle: longer side over shorter side'),
+ 'seam_length': ('float', 'length of seam_edges and overlap_cuts on the mesh, in its units'),
+ 'seam_length_relative': ('float', 'the same, over the square root of its area'),
+ 'torus_tau_re': ('float', 'flat torus: real part of its modulus in the fundamental domain'),
+ 'torus_tau_im': ('float', 'imaginary part of this modulus'),
+ 'annulus_modulus': ('float', 'flat annulus: ln(r₂/r₁) / 2π'),
+ 'rectangle_aspect': ('float', 'rectangle: longer side over shorter side'),
  'holonomy_error': ('float',
                     'with cone_rounding 1, except for Edge swaps: the largest distance of the '
                     'rotation across a seam from a multiple of π/2, in radians'),
  'period_matrix': ('vector',
                    'one closed component of genus g from 1 to 10: Re, Im of the entries of its '
-                   "Riemann period matrix, g × g, row by row; it belongs to the mesh's own "
-                   'flat faces and does not depend on the target; bound of its error: the '
-                   'largest distance, as logarithm, of the energies of harmonic forms (genus '
-                   '1: the distance in the hyperbolic plane)'),
+                   "Riemann period matrix, g × g, row by row, which belongs to the mesh's own "
+                   'flat faces and does not depend on the target'),
  'period_error': ('float',
-                  'one closed component of genus g from 1 to 10: Re, Im of the entries of its '
-                  "Riemann period matrix, g × g, row by row; it belongs to the mesh's own flat "
-                  'faces and does not depend on the target; bound of its error: the largest '
-                  'distance, as logarithm, of the energies of harmonic forms (genus 1: the '
-                  'distance in the hyperbolic plane)'),
+                  'bound of its error: the largest distance, as logarithm, of the energies of '
+                  'harmonic forms (genus 1: the distance in the hyperbolic plane)'),
  'texture_scale': ('float',
                    'with carry_texture, of faces that had a texture: texels of the new one per '
                    'unit of length over those of the old one, mean by area'),

@@ -20,7 +20,7 @@ def die_with_parent():
     try:
         import ctypes
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)
-    except (AttributeError, OSError):
+    except (AttributeError, OSError, TypeError):
         pass
 
 

@@ -159,8 +159,8 @@ class _Texture:
 
 
 def given(mesh):
-    """What a run may read of a Mesh, but for selected edges. PyMeshLab keeps to itself which of several
-    textures a face shows."""
+    """What a run may read of a Mesh, but for selected edges and the number of a face's texture, which
+    PyMeshLab does not give to programs."""
     if not mesh.is_compact():
         mesh.compact()
     faces = numpy.ascontiguousarray(mesh.face_matrix(), dtype=numpy.int32)
@@ -183,23 +183,32 @@ def given(mesh):
     return new
 
 
-def _selected_edges(mesh_set):
-    """(F, 3) bool. PyMeshLab tells files alone: the flags of the faces of a PLY."""
+def _of_faces(mesh_set, name, kind, option):
+    """The last numbers that a PLY of PyMeshLab has for each face: what it tells files alone."""
     count = mesh_set.current_mesh().face_number()
+    rows = numpy.dtype([("count", "u1"), ("corners", "<i4", 3), *kind])
+    options = dict.fromkeys(
+        ["save_" + what for what in ("textures", "vertex_color", "vertex_normal", "vertex_quality",
+                                     "vertex_flag", "vertex_radius", "face_color", "face_quality",
+                                     "face_flag", "wedge_texcoord")], False)
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "flags.ply")
-        mesh_set.save_current_mesh(path, binary=True, save_face_flag=True, **{
-            "save_" + what: False for what in ("textures", "vertex_color", "vertex_normal",
-                                               "vertex_quality", "vertex_flag", "vertex_radius",
-                                               "face_color", "face_quality", "wedge_texcoord")})
+        path = os.path.join(folder, "mesh.ply")
+        mesh_set.save_current_mesh(path, binary=True, **{**options, option: True})
         with open(path, "rb") as source:
             data = source.read()
-    rows = numpy.dtype([("count", "u1"), ("corners", "<i4", 3), ("flags", "<i4")])
-    flags = numpy.frombuffer(data[len(data) - count * rows.itemsize:], rows)["flags"]
-    return (flags[:, None] >> _SELECTED_EDGE & 1).astype(bool)
+    return numpy.frombuffer(data[len(data) - count * rows.itemsize:], rows)[name]
 
 
-_SELECTED_EDGE = numpy.array([15, 16, 17])  # bits of vcglib's flags
+def _selected_edges(mesh_set):
+    """(F, 3) bool"""
+    flags = _of_faces(mesh_set, "flags", [("flags", "<i4")], "save_face_flag")
+    return (flags[:, None] >> numpy.array([15, 16, 17]) & 1).astype(bool)  # bits of vcglib
+
+
+def _texture_of_face(mesh_set):
+    """(F,) int32"""
+    wedge = [("numbers", "u1"), ("uv", "<f4", 6), ("texture", "<i4")]
+    return _of_faces(mesh_set, "texture", wedge, "save_wedge_texcoord")
 
 
 def _new_attribute(has, part):
@@ -363,6 +372,8 @@ def _run_arrays(number, mesh_set, given_mesh, parameters, progress):
     """By the library; the current mesh then is what comes of it."""
     if parameters.get("seams") == "Selected edges" and "selected_edges" not in given_mesh.arrays:
         given_mesh.arrays["selected_edges"] = _selected_edges(mesh_set)
+    if parameters.get("carry_texture") and len(given_mesh.pictures) > 1:
+        given_mesh.arrays["picture_of_face"] = _texture_of_face(mesh_set)
     try:
         outputs, log, messages = run_arrays(number, given_mesh, parameters, progress)
     except _errors.Refused as problem:

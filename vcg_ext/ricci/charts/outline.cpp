@@ -110,13 +110,13 @@ std::complex<double> uprightTurn(const Outline& outline)
 			best = degree;
 	std::complex<double> mean = std::polar(1.0, 2.0 * kPi * ((best + 0.5) / kDegrees - 0.5));
 	double straight = 0.0;
-	for (int pass = 0; pass < 2;
-		 ++pass) { // about the middle of these degrees, and about their mean
+	for (const double degrees : {2.0, 1.0}) { // about the middle of these three, then their mean
 		const std::complex<double> middle = mean / std::abs(mean);
 		mean = 0.0;
 		straight = 0.0;
 		for (const std::complex<double>& side : fourth)
-			if ((side * std::conj(middle)).real() > std::cos(4.0 * kPi / 180.0) * std::abs(side)) {
+			if ((side * std::conj(middle)).real() >
+				std::cos(4.0 * degrees * kPi / 180.0) * std::abs(side)) {
 				mean += side;
 				straight += std::abs(side);
 			}

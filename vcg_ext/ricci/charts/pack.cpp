@@ -28,6 +28,10 @@ constexpr int kMaxAttempts = 60;
 /// Charts that are placed by their outlines at most.
 constexpr std::size_t kMaxOutlines = 200;
 
+/// A lone chart lies along the axes if the square round it is wider by no more than this share. Nets of boxes, which
+/// mostly are one chart, stay below it; a strip ten times as long as wide fills a tenth of the square in place of a sixth.
+constexpr double kUprightCost = 0.1;
+
 /// A chart is too small for that if its box is shorter than this share of the square.
 constexpr double kMinOutlineExtent = 1.0 / 64.0;
 
@@ -107,11 +111,17 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 	return packing;
 }
 
-/// One chart, turned so that the square round it is smallest.
-Packing packAlone(const FlatMesh& mesh)
+/// One chart, turned so that the square round it is smallest, or upright where that costs little.
+Packing packAlone(const FlatMesh& mesh, bool isUpright)
 {
 	const OrientedRectangle r = minExtentRectangle(mesh.place.values());
+	const Box2 box = mesh.box();
 	Packing packing;
+	if (isUpright && box.extent() <= (1.0 + kUprightCost) * r.extent()) {
+		packing.motions.emplace_back();
+		packing.whole = box;
+		return packing;
+	}
 	packing.motions.push_back({{r.cosine, -r.sine}, {0.0, 0.0}});
 	packing.whole.add(r.min);
 	packing.whole.add(r.max);
@@ -281,7 +291,6 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	std::vector<char> isUpright(triangles.size(), 0);
 	if (turns == ChartTurns::Free && options.turns != ChartTurns::None && options.normalizeUV)
 		isUpright = turnUpright(triangles, map.mesh);
-	const bool staysAsItIs = options.turns == ChartTurns::Quarter || isUpright.front();
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	// The square that holds all has this side at least.
 	double area = 0.0, extent = 0.0;
@@ -309,11 +318,11 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	}
 	const ChartTurns mayTurn = std::min(turns, options.turns);
 	if (mayTurn != ChartTurns::None && packing.side() > 0.0 &&
-		!(boxes.size() == 1 && (isThin.front() || staysAsItIs))) {
+		!(boxes.size() == 1 && (isThin.front() || options.turns == ChartTurns::Quarter))) {
 		const double padding = std::max(packing.padding, kMinPadding * packing.side());
 		Packing turned =
 			boxes.size() == 1
-				? packAlone(map.mesh)
+				? packAlone(map.mesh, isUpright.front() != 0)
 				: packByOutlines(
 					  {map.mesh, triangles, boxes, isThin, isUpright, packing.side(), padding},
 					  placeBoxes,

@@ -285,8 +285,8 @@ std::vector<int> unseenTriangles(const FlatMesh& mesh)
 	std::vector<int> unseen;
 	for (const int f : mesh.points.indices()) {
 		const std::array<double, 3>& l = mesh.lengths[f];
-		const double doubled = 2.0 * euclideanArea(l);
-		if (doubled < least * std::max({l[0], l[1], l[2]})) {
+		const double doubled = 2.0 * euclideanArea(l), longest = std::max({l[0], l[1], l[2]});
+		if (doubled < least * longest && doubled > kTiny * longest * longest) {
 			own += 0.5 * doubled;
 			unseen.push_back(f);
 		}

@@ -74,7 +74,7 @@ Array<Triangle2> chordTriangles(const FlatMesh& mesh);
 /// Geodesic triangles in the Poincaré disk of the wrong orientation, or without area, as far as rounding can tell.
 int flippedInDisk(const FlatMesh& mesh);
 
-/// Triangles that no texture shows: lower than a texel of the largest one, and all together of less area than a row of
+/// Triangles with an area that no texture shows: lower than a texel of the largest one, and all together of less area than a row of
 /// its texels. In increasing order; none where they have more.
 std::vector<int> unseenTriangles(const FlatMesh& mesh);
 

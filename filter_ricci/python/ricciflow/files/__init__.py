@@ -9,13 +9,14 @@ All that is in the file stays in it; see MeshFile.save.
 
 from pathlib import Path
 
-from . import _gltf, _obj, _off, _pictures, _ply, _stl, _threemf
+import numpy as np
+
+from . import _gltf, _obj, _off, _ply, _stl, _threemf
 from ._pictures import Picture, decode as read_picture, write as write_picture
 from ._shared import FileError, MeshFile, Part, PlainMesh, Refined, remarks
 
-__all__ = ['FileError', 'MeshFile', 'Part', 'Picture', 'Refined', 'plain', 'read',
-           'read_picture', 'remarks',
-           'write_picture']
+__all__ = ['FileError', 'MeshFile', 'Part', 'Picture', 'READS', 'Refined', 'WRITES', 'plain', 'read',
+           'read_picture', 'remarks', 'write_picture']
 
 _READERS = {'.obj': _obj.ObjFile, '.ply': _ply.PlyFile, '.glb': _gltf.GltfFile, '.gltf': _gltf.GltfFile,
             '.stl': _stl.StlFile, '.off': _off.OffFile, '.3mf': _threemf.ThreeMfFile}
@@ -27,6 +28,7 @@ WRITES = tuple(_PLAIN)
 """Endings of files that are written."""
 
 
+@np.errstate(all='ignore')  # files hold any numbers
 def read(path):
     """The mesh of a file, by its ending: OBJ, PLY, GLB, glTF, STL, OFF, 3MF.
 
@@ -37,8 +39,7 @@ def read(path):
     if reader is None:
         raise FileError(
             f'{path.name}: files that end with {path.suffix or "nothing"} are not read without trimesh '
-            f'or PyMeshLab; {", ".join(READS)} are'
-        )
+            f'or PyMeshLab; {", ".join(READS)} are')
     try:
         return reader(path)
     except FileNotFoundError:

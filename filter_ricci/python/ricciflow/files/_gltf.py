@@ -101,13 +101,14 @@ class GltfFile(MeshFile):
     def _check_extensions(self):
         required = self.json.get('extensionsRequired', [])
         for name in required:
-            if name in _COMPRESSED:
-                raise FileError(
-                    f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
-                    'read here: export it without compression'
-                )
-            if not name.startswith(_PLAIN) and name != 'KHR_materials_variants':
+            self._refuse_compressed(name)
+            if not name.startswith(_PLAIN):
                 raise FileError(f'{self.path.name} needs the glTF extension {name}, which is not known here')
+
+    def _refuse_compressed(self, extension):
+        if extension in _COMPRESSED:
+            raise FileError(f'{self.path.name} is compressed with {_COMPRESSED[extension]} ({extension}), '
+                            'which is not read here: export it without compression')
 
     def _buffer(self, number, buffer, body):
         uri, length = buffer.get('uri'), buffer['byteLength']
@@ -129,11 +130,7 @@ class GltfFile(MeshFile):
         """(count, size) bytes of a buffer view."""
         view = self.json['bufferViews'][number]
         for name in view.get('extensions', {}):
-            if name in _COMPRESSED:
-                raise FileError(
-                    f'{self.path.name} is compressed with {_COMPRESSED[name]} ({name}), which is not '
-                    'read here: export it without compression'
-                )
+            self._refuse_compressed(name)
         stride = view.get('byteStride', size)
         begin = view.get('byteOffset', 0) + offset
         buffer = self._buffers[view['buffer']]
@@ -164,8 +161,7 @@ class GltfFile(MeshFile):
             at, new = sparse['indices'], sparse['values']
             index_kind = np.dtype(_KINDS[at['componentType']])
             index = self._view(
-                at['bufferView'], at.get('byteOffset', 0), sparse['count'], index_kind.itemsize
-            )
+                at['bufferView'], at.get('byteOffset', 0), sparse['count'], index_kind.itemsize)
             rows = rows.copy()
             rows[np.ascontiguousarray(index).view(index_kind).ravel()] = self._view(
                 new['bufferView'], new.get('byteOffset', 0), sparse['count'], size)
@@ -189,8 +185,7 @@ class GltfFile(MeshFile):
             if len(index) and int(index.max()) >= count:
                 raise FileError(
                     f'{self.path.name}: {counted(int((index >= count).sum()), "corner")} of faces name a '
-                    f'vertex beyond the {count} of the primitive'
-                )
+                    f'vertex beyond the {count} of the primitive')
             index = index.view(np.int32) if index.dtype == np.uint32 else index.astype(np.int32)
         else:
             index = np.arange(count, dtype=np.int32)
@@ -198,8 +193,7 @@ class GltfFile(MeshFile):
         if mode == 4:
             if len(index) % 3:
                 self.messages.append(
-                    f'{len(index) % 3} indices after the last triangle of a primitive left out'
-                )
+                    f'{len(index) % 3} indices after the last triangle of a primitive left out')
             return index[:len(index) // 3 * 3].reshape(-1, 3)
         if len(index) < 3:
             return np.zeros((0, 3), np.int32)
@@ -272,8 +266,7 @@ class GltfFile(MeshFile):
         self.messages += remarks(self.vertices, self.faces)
         if any(u is not None for u in uv):
             self.uv = np.concatenate(
-                [np.full((len(p), 3, 2), np.nan) if u is None else u for u, p in zip(uv, picture)]
-            )
+                [np.full((len(p), 3, 2), np.nan) if u is None else u for u, p in zip(uv, picture)])
             self.uv_picture = np.concatenate(picture)
         if any(p.get('material') is not None for p in self._used()):
             self.material_colours = linear_to_srgb(np.concatenate(materials))
@@ -320,8 +313,7 @@ class GltfFile(MeshFile):
         source = entry.get('source')
         for name in ('EXT_texture_webp', 'EXT_texture_avif', 'KHR_texture_basisu'):
             source = (
-                entry.get('extensions', {}).get(name, {}).get('source', source) if source is None else source
-            )
+                entry.get('extensions', {}).get(name, {}).get('source', source) if source is None else source)
         return np.c_[uv[:, 0], 1 - uv[:, 1]], -1 if source is None else source, factor
 
     def _read_pictures(self):
@@ -338,6 +330,7 @@ class GltfFile(MeshFile):
             self.pictures.append(_pictures.Picture(name, source))
 
     @_guarded
+    @np.errstate(all='ignore')
     def corner_normals(self):
         result = np.full((len(self.faces), 3, 3), np.nan, np.float32)
         for primitive, p in zip(self._primitives, self._used()):
@@ -350,6 +343,9 @@ class GltfFile(MeshFile):
         return result if len(self.faces) else None
 
     # Writing
+
+    def holds(self, plain):
+        return True
 
     def _same_format(self, path):
         return path.suffix.lower() in ('.glb', '.gltf')
@@ -385,8 +381,7 @@ class GltfFile(MeshFile):
                     attributes[f'TEXCOORD_{moved}'] = attributes['TEXCOORD_0']
             attributes.pop(f'TEXCOORD_{number}', None)
             flipped = (
-                np.stack([coordinates[..., 0], 1 - coordinates[..., 1]], -1).astype('<f4').reshape(-1, 2)
-            )
+                np.stack([coordinates[..., 0], 1 - coordinates[..., 1]], -1).astype('<f4').reshape(-1, 2))
             out.split(new, triangles, weights, flipped + np.float32(0), number)
         out.write(path)
         return messages + copy_beside(out.files, self.path.parent, path.parent)
@@ -399,8 +394,7 @@ class GltfFile(MeshFile):
             if missing or uv_set < 0:
                 raise FileError(
                     f'{self.path.name}: TEXCOORD_{uv_set} cannot be written, since a primitive has no '
-                    f'TEXCOORD_{missing[0] if missing else 0}'
-                )
+                    f'TEXCOORD_{missing[0] if missing else 0}')
             return int(uv_set), None
         if material is not None or 'TEXCOORD_0' not in present:
             return 0, None
@@ -530,8 +524,7 @@ class _Writer:
             members['byteStride'] = padded.shape[1]
         accessor = {k: v for k, v in entry.items() if k not in ('bufferView', 'byteOffset', 'sparse')}
         accessor.update(
-            bufferView=self.view(np.ascontiguousarray(padded).tobytes(), **members), count=len(rows)
-        )
+            bufferView=self.view(np.ascontiguousarray(padded).tobytes(), **members), count=len(rows))
         accessors = self.json.setdefault('accessors', [])
         if self._free_accessors:
             number = self._free_accessors.pop()
@@ -559,8 +552,7 @@ class _Writer:
         else:
             rows = {a: self._mixed(a, r, triangles, weights, primitive) for a, r in raw.items()}
             whole = np.concatenate(
-                [np.ascontiguousarray(r) for r in rows.values()] + [uv.view(np.uint8).reshape(-1, 8)], 1
-            )
+                [np.ascontiguousarray(r) for r in rows.values()] + [uv.view(np.uint8).reshape(-1, 8)], 1)
             _, first, index = np.unique(whole.view(np.dtype((np.void, whole.shape[1]))).ravel(),
                                         return_index=True, return_inverse=True)
             rows, key = {a: r[first] for a, r in rows.items()}, object()
@@ -579,8 +571,7 @@ class _Writer:
         small = len(first) < 65535
         index = index.ravel().astype('<u2' if small else '<u4')[:, None].view(np.uint8)
         primitive['indices'] = self._accessor(
-            {'componentType': 5123 if small else 5125, 'type': 'SCALAR'}, index, 34963
-        )
+            {'componentType': 5123 if small else 5125, 'type': 'SCALAR'}, index, 34963)
         primitive.pop('mode', None)
 
     def _mixed(self, number, raw, triangles, weights, primitive):
@@ -592,8 +583,7 @@ class _Writer:
         if name.startswith(('JOINTS_', 'WEIGHTS_')):
             return raw[nearest]
         values = np.ascontiguousarray(raw).view(
-            _KINDS[self.source.json['accessors'][number]['componentType']]
-        )
+            _KINDS[self.source.json['accessors'][number]['componentType']])
         result = mixed(values[corners], weights)
         if name in ('NORMAL', 'TANGENT') and result.dtype.kind == 'f':
             new = weights.max(1) < 1
@@ -621,8 +611,7 @@ class _Writer:
                 content = source._buffers[key[0]][key[1]:key[1] + key[2]]
                 if len(content) < key[2]:
                     raise FileError(
-                        f'{source.path.name} is damaged: buffer view {number} goes beyond its buffer'
-                    )
+                        f'{source.path.name} is damaged: buffer view {number} goes beyond its buffer')
             if key is None or key not in done:
                 body += bytes(-len(body) % 4)
                 done[key] = len(body)
@@ -646,8 +635,7 @@ class _Writer:
             text = json.dumps(data, ensure_ascii=False, separators=(',', ':')).encode()
             text += b' ' * (-len(text) % 4)
             content = (
-                struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(body), len(text), b'JSON') + text
-            )
+                struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(body), len(text), b'JSON') + text)
             content += struct.pack('<I4s', len(body), b'BIN\0') + body
         for picture in source.pictures:
             if isinstance(picture.source, Path):
@@ -703,12 +691,10 @@ def _distinct(corners, uv):
 def plain(mesh):
     """(bytes) A GLB of the mesh without texture coordinates, all parts in one primitive."""
     colours, normals = mesh.corner_colours(), mesh.corner_normals()
-    with np.errstate(over='ignore'):
-        points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
+    points = mesh.vertices[mesh.faces].reshape(-1, 3).astype('<f4')
     if not np.isfinite(points).all():
         raise FileError(
-            f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only'
-        )
+            f'{mesh.path.name} has coordinates that glTF cannot hold, which has finite floats only')
     keys = [mesh.faces.reshape(-1, 1).astype(np.uint32)]
     entries = [('POSITION', 'VEC3', points)]
     if normals is not None:

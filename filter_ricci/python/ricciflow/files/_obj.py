@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, Lines, MeshFile, beside, copy_beside, counted, counts_between, digits,
-                      distinct, mixed, numbers, relative, rewritten, spliced, table, word_starts,
-                      without_comments, words_of_lines, write_file)
+from ._shared import (FileError, MeshFile, beside, copy_beside, counted, distinct, mixed, relative, rewritten,
+                      write_file)
+from ._text import (Lines, counts_between, digits, numbers, spliced, table, word_starts, without_comments,
+                    words_of_lines)
 
 # Options of map_Kd and how many words follow; -o, -s, -t have up to three numbers.
 _OPTIONS = {b'-blendu': 1, b'-blendv': 1, b'-boost': 1, b'-mm': 2, b'-o': 3, b'-s': 3, b'-t': 3,
@@ -194,6 +195,7 @@ class ObjFile(MeshFile):
             self._moved = [(np.flatnonzero(current == k), m) for k, m in enumerate(known)
                            if m and m.picture and (m.scale != [1, 1] or m.offset != [0, 0])]
 
+    @np.errstate(all='ignore')
     def corner_normals(self):
         if self._slashes is None or not (self._slashes == 2).any() or not len(self._vn):
             return None
@@ -234,8 +236,7 @@ class ObjFile(MeshFile):
         mask[~plain, 0] = False
         begin = np.r_[at[stays], self._lines.begin[gone], numbers_of_lines[:, 0]]
         end = np.r_[
-            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]
-        ]
+            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]]
         order = np.argsort(begin, kind='stable')
         rows = np.r_[rows[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), np.uint8)][order]
         mask = np.r_[mask[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), bool)][order]
@@ -263,8 +264,7 @@ class ObjFile(MeshFile):
         late = (
             self._relative or any(len(k) and k[-1] > self._f[0] for k in (self._v, self._vn))
             if vertices
-            else False
-        )
+            else False)
         tail = b''.join(vertices) if late else b''
         if tail and not self._data.endswith(b'\n'):
             tail = b'\n' + tail
@@ -282,9 +282,7 @@ class ObjFile(MeshFile):
             (self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
             for line in self._lines.beginning(b'l')
             for match in re.finditer(
-                rb'/[^\s/]*', self._data[self._lines.begin[line] : self._lines.end[line]]
-            )
-        ]
+                rb'/[^\s/]*', self._data[self._lines.begin[line] : self._lines.end[line]])]
 
     def _second_numbers(self):
         """(C,) where the second number of each corner begins and ends; and whether it has no slash."""
@@ -440,8 +438,7 @@ def plain(mesh):
         out.append(table('v %.17g %.17g %.17g\n', mesh.vertices))
     else:
         out.append(
-            table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]])
-        )
+            table('v %.17g %.17g %.17g %.6g %.6g %.6g\n', np.c_[mesh.vertices, mesh.vertex_colours[:, :3]]))
     corner = np.zeros(int(mesh.starts[-1]), np.int64)
     corner[mesh.corners] = mesh.faces + 1
     normals = mesh.corner_normals()

@@ -5,7 +5,8 @@ import re
 
 import numpy as np
 
-from ._shared import FileError, Lines, MeshFile, numbers, whole, without_comments, words_of_lines
+from ._shared import FileError, MeshFile
+from ._text import Lines, numbers, whole, without_comments, words_of_lines
 
 _HEAD = re.compile(rb'(ST)?(C)?(N)?(4)?(n)?OFF(\s+BINARY)?')
 
@@ -46,7 +47,7 @@ class OffFile(MeshFile):
         values = numbers(text.tobytes())
         if vertices and (len(values) % vertices or len(values) < 3 * vertices):
             return False
-        values = values.reshape(vertices, len(values) // max(vertices, 1))
+        values = values.reshape(vertices, len(values) // vertices if vertices else 3)
         self.vertices = np.ascontiguousarray(values[:, :3])
         colours = values[:, 3 + normals:7 + normals]
         if colours.shape[1] >= 3:

@@ -103,13 +103,11 @@ def encode_png(picture):
     filtered[:, size:] -= rows[:, :-size]  # filter 1: less the texel to the left
     body = np.c_[np.ones(height, np.uint8), filtered].tobytes()
     head = struct.pack(
-        '>IIBBBBB', width, height, picture.dtype.itemsize * 8, 2 if channels == 3 else 6, 0, 0, 0
-    )
+        '>IIBBBBB', width, height, picture.dtype.itemsize * 8, 2 if channels == 3 else 6, 0, 0, 0)
 
     def chunk(kind, content):
         return (
-            struct.pack('>I', len(content)) + kind + content + struct.pack('>I', zlib.crc32(kind + content))
-        )
+            struct.pack('>I', len(content)) + kind + content + struct.pack('>I', zlib.crc32(kind + content)))
 
     return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', head) + chunk(b'IDAT', zlib.compress(body, 6)) +
             chunk(b'IEND', b''))
@@ -174,10 +172,8 @@ def _unfiltered(kinds, raw, size):
         kind = kinds[y, None]
         by_left, by_up, by_corner = np.abs(up - corner), np.abs(left - corner), np.abs(left + up - 2 * corner)
         paeth = np.where(
-            (by_left <= by_up) & (by_left <= by_corner), left, np.where(by_up <= by_corner, up, corner)
-        )
+            (by_left <= by_up) & (by_left <= by_corner), left, np.where(by_up <= by_corner, up, corner))
         guess = np.select(
-            [kind == 1, kind == 2, kind == 3, kind == 4], [left, up, (left + up) >> 1, paeth], 0
-        )
+            [kind == 1, kind == 2, kind == 3, kind == 4], [left, up, (left + up) >> 1, paeth], 0)
         out[y + 1, x + 1] = (texels[y, x] + guess) & 255
     return out[1:, 1:].astype(np.uint8).reshape(height, -1)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stanford PLY, ascii and binary. Written again, every element and property stays; texcoord is of corners."""
+"""Stanford PLY, ascii and binary. Written again, every element and property stays; texcoord is of corners.
+
+MeshLab, whose property it is, reads it of triangles only: larger polygons are written as triangles.
+"""
 
 import struct
 from itertools import chain
@@ -7,8 +10,8 @@ from itertools import chain
 import numpy as np
 
 from . import _pictures
-from ._shared import (FileError, MeshFile, beside, copy_beside, mixed, numbers, relative, rewritten, whole,
-                      words_of_lines, write_file)
+from ._shared import FileError, MeshFile, beside, copy_beside, counted, mixed, relative, rewritten, write_file
+from ._text import numbers, whole, words_of_lines
 
 _TYPES = {'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4',
           'float': 'f4', 'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2',
@@ -75,8 +78,7 @@ class PlyFile(MeshFile):
             try:
                 if words[:1] == ['format']:
                     self._order = {'ascii': None, 'binary_little_endian': '<', 'binary_big_endian': '>'}[
-                        words[1]
-                    ]
+                        words[1]]
                     known = True
                 elif words[:1] == ['element']:
                     self._elements.append(_Element(words[1], int(words[2])))
@@ -216,8 +218,7 @@ class PlyFile(MeshFile):
         count = (
             words_of_lines(self._text[lines[0] :], lines[:-1] - lines[0])
             if len(lines) > 1
-            else np.zeros(0, int)
-        )
+            else np.zeros(0, int))
         used = np.flatnonzero(count)[:n]
         if len(used) < n:
             if self._by_words(element):
@@ -312,8 +313,7 @@ class PlyFile(MeshFile):
             table['n'], table['v'] = 3, faces
             rows = table.tobytes()
         self.__init__(
-            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :]
-        )
+            self.path, head + self._data[self._body : element.begin] + rows + self._data[element.end :])
         self.messages.append('strips of triangles are written as faces')
 
     def _read_mesh(self):
@@ -336,7 +336,7 @@ class PlyFile(MeshFile):
             self.set_polygons(np.ravel(values), starts)
         colours = _colours(face)
         self.face_colours = None if colours is None else colours[self.polygon]
-        names = [line.split(None, 2)[2].strip() for line in self._header
+        names = [_name(line.split(None, 2)[2].strip()) for line in self._header
                  if line.split()[:2] == ['comment', 'TextureFile'] and len(line.split()) > 2]
         self.pictures = [_pictures.Picture(n, beside(self.path.parent, n)) for n in names]
         self.uv = self._coordinates(vertex, face)
@@ -361,6 +361,7 @@ class PlyFile(MeshFile):
                 return np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
         return None
 
+    @np.errstate(all='ignore')
     def corner_normals(self):
         vertex = self._by_name['vertex']
         if not all(p in vertex.types and vertex.types[p][1] is None for p in ('nx', 'ny', 'nz')):
@@ -373,6 +374,8 @@ class PlyFile(MeshFile):
         if self._indices is None:
             self._fail('there are no faces')
         new = rewritten(self, uv, refined)
+        large = np.diff(self.starts) > 3
+        new.torn |= large
         face = self._by_name['face']
         kind = face.types.get('texcoord', ('f4', 'u1'))
         extra = sum(len(new.triangles(p)) - 1 for p in np.flatnonzero(new.torn))
@@ -388,12 +391,15 @@ class PlyFile(MeshFile):
         body.append(self._data[self._elements[-1].end:])
         write_file(path, b''.join([header, *body]))
         files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
-        return copy_beside(files, self.path.parent, path.parent)
+        messages = [f'{counted(int(large.sum()), "face")} with more than 3 corners: written as triangles, '
+                    'since MeshLab reads no others with texture coordinates'] if large.any() else []
+        return messages + copy_beside(files, self.path.parent, path.parent)
 
     def _new_header(self, path, face, faces, vertices, texture):
         lines, out, current = self._header, [], None
         names = [i for i, line in enumerate(lines) if line.split()[:2] == ['comment', 'TextureFile']]
-        shows = None if texture is None else f'comment TextureFile {relative(texture, path.parent)}'
+        shows = None if texture is None else 'comment TextureFile ' + relative(
+            texture, path.parent).encode('utf-8', 'surrogateescape').decode('latin1')  # as all lines are kept
         for i, line in enumerate(lines):
             words = line.split()
             if words[:1] in (['element'], ['end_header']):
@@ -412,7 +418,7 @@ class PlyFile(MeshFile):
         end = '\r\n' if b'\r\n' in self._data[:self._body] else '\n'
         if b'\n' not in self._data[:self._body]:
             end = '\r'
-        return (end.join(out) + end).encode('latin1', 'replace')
+        return (end.join(out) + end).encode('latin1')
 
     def _face_rows(self, face, kind, new, zero):
         """The rows of faces with texcoord, which keeps its place or is the last."""
@@ -452,8 +458,6 @@ class PlyFile(MeshFile):
         gap = b' ' if text else b''
         out = []
         starts, torn = self.starts.tolist(), new.torn
-        if len(new.corner_uv) and np.diff(self.starts).max() * 2 > np.iinfo(kind[1]).max:
-            self._fail('a face has more corners than its list of texture coordinates can count')
         simple = not zero or 'texnumber' not in face.types
         for p in range(face.count):
             pairs = new.corner_uv[starts[p]:starts[p + 1]]
@@ -531,9 +535,17 @@ class PlyFile(MeshFile):
         return b''.join(rows)
 
 
+def _name(text):
+    """The name of a file that a line of the header says."""
+    raw = text.encode('latin1')
+    try:
+        return raw.decode('utf-8')
+    except UnicodeDecodeError:
+        return text
+
+
 def _typed(values, kind):
-    with np.errstate(over='ignore'):
-        return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
+    return values.astype(kind) if kind[0] == 'f' else whole(values, kind)
 
 
 def _spread(begin, counts, size):
@@ -562,8 +574,7 @@ def _colours(element):
 
 def plain(mesh):
     """(bytes) A binary PLY of the mesh without texture coordinates."""
-    with np.errstate(over='ignore'):
-        single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
+    single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
     kind, word = ('<f4', 'float') if single else ('<f8', 'double')
     fields, header = [(p, kind) for p in 'xyz'], [f'property {word} {p}' for p in 'xyz']
     if mesh.vertex_colours is not None:
@@ -587,8 +598,7 @@ def plain(mesh):
         heads = [n.tobytes() for n in count.astype(kind[0])]
         starts = mesh.starts.tolist()
         rows = b''.join(
-            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:]))
-        )
+            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:])))
     lines = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(mesh.vertices)}', *header,
              f'element face {len(count)}', f'property list {kind[1]} int vertex_indices', 'end_header', '']
     return '\n'.join(lines).encode() + table.tobytes() + rows

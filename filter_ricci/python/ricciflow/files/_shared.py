@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the formats share: the mesh that a file holds, its polygons as triangles, text as numbers,
-and files that are replaced whole or not at all."""
+"""What the formats share: the mesh that a file holds and what is written of it, and files that are replaced
+whole or not at all."""
 
-import heapq
 import os
 import secrets
-import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+
+from ._polygons import triangulate
+from ._text import whole
 
 
 class FileError(ValueError):
@@ -134,8 +135,7 @@ class MeshFile:
             if few.any():
                 self.messages.append(
                     f'{counted(int(few.sum()), "face")} with less than 3 corners, first face '
-                    f'{int(few.argmax()) + 1}: not mapped'
-                )
+                    f'{int(few.argmax()) + 1}: not mapped')
             corners, polygon, self.diagonals = triangulate(self.vertices, corner_vertices, starts)
             self._polygons = starts, corners, polygon
             self.faces = corner_vertices[corners]
@@ -154,6 +154,7 @@ class MeshFile:
             sized[part.vertices] *= part.scale
         return sized
 
+    @np.errstate(all='ignore')
     def corner_colours(self):
         """(F, 3, 4) float32, or None: what faces without a picture show."""
         factors = []
@@ -178,6 +179,7 @@ class MeshFile:
 
     # Writing
 
+    @np.errstate(all='ignore')
     def save(self, path, uv, texture=None, *, refined=None, uv_set=None):
         """Writes the file to `path` with other texture coordinates; all else in it stays.
 
@@ -210,7 +212,13 @@ class MeshFile:
             return self._patch(path, uv, texture, refined, uv_set)
         plain, uv, messages = placed(self, uv, refined, texture is not None)
         target = self._converted(path, plain)
+        if plain.colours is not None and not target.holds(plain):
+            messages.append('colours of faces: not written in this format')
         return messages + target._patch(path, uv, texture, None, uv_set)
+
+    def holds(self, plain):
+        """Whether the format can have the colours of a PlainMesh."""
+        return plain.vertex_colours is not None
 
     def _same_format(self, path):
         return path.suffix.lower() == self.path.suffix.lower()
@@ -248,23 +256,20 @@ def placed(mesh, uv, refined, shows_picture):
     plain, messages = PlainMesh(mesh.path), []
     colours, normals = None if shows_picture else mesh.corner_colours(), mesh.corner_normals()
     if mesh.pictures and not shows_picture:
-        messages.append(
-            f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another format'
-        )
+        messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another '
+                        'format')
     vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     if refined is not None:
         faces, points, _ = _numbered(mesh, refined)
         vertices, origin = np.concatenate([vertices, points]), refined.origin
-        colours, normals = (
-            (
-                None
-                if a is None
-                else mixed(
-                    a[origin][:, None].repeat(3, 1).reshape(-1, *a.shape[1:]), refined.weights.reshape(-1, 3)
-                ).reshape(-1, *a.shape[1:])
-            )
-            for a in (colours, normals)
-        )
+        weights = refined.weights.reshape(-1, 3)
+
+        def at_corners(values):
+            if values is None:
+                return None
+            of_origin = values[origin][:, None].repeat(3, 1).reshape(-1, 3, values.shape[-1])
+            return mixed(of_origin, weights).reshape(-1, 3, values.shape[-1])
+        colours, normals = at_corners(colours), at_corners(normals)
     stays = all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts)
     if refined is None and stays:
         plain.vertices, plain.faces, plain._polygons = vertices, faces, mesh._polygons
@@ -338,132 +343,6 @@ def linear_to_srgb(colour):
     rgb = c[..., :3] = np.clip(c[..., :3], 0, 1)
     c[..., :3] = np.where(rgb <= 0.0031308, rgb * 12.92, 1.055 * rgb ** (1 / 2.4) - 0.055)
     return c
-
-
-# Polygons
-
-def triangulate(points, corner_vertices, starts):
-    """Triangles of polygons, concave ones too, in their order and with their orientation.
-
-    Returns: corners (F, 3) as indices of `corner_vertices`; polygon (F,); diagonals (F, 3) bool.
-    """
-    count = np.diff(starts)
-    per = np.maximum(count - 2, 0)
-    polygon = np.repeat(np.arange(len(count), dtype=np.int32), per)
-    first = np.cumsum(per) - per
-    local = np.zeros((len(polygon), 3), np.int64)  # corners, counted in their polygon
-    local[:, 1] = np.arange(len(polygon)) - first[polygon] + 1
-    local[:, 2] = local[:, 1] + 1
-    if (count > 3).any():
-        doubles = points.astype(np.float64)
-
-        def areas(corner_triples):
-            a, b, c = (doubles[corner_vertices[corner_triples[..., k]]] for k in range(3))
-            return np.cross(b - a, c - a)
-
-        with np.errstate(all='ignore'):
-            quads = np.flatnonzero(count == 4)
-            corner = starts[quads, None]
-            usual, other = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[1, 2, 3], [1, 3, 0]])
-            halves = areas(corner[:, None] + usual)
-            whole = halves.sum(1)[:, None]
-            turn = ((halves * whole).sum(2) <= 0).any(1)
-            turn[turn] = ((areas(corner[turn][:, None] + other) * whole[turn]).sum(2) > 0).all(1)
-            local[first[quads[turn], None] + [0, 1]] = other
-            large = np.flatnonzero(np.isin(polygon, np.flatnonzero(count > 4)))
-            if len(large):
-                area = areas(starts[polygon[large], None] + local[large])
-                begin = np.flatnonzero(np.r_[True, np.diff(polygon[large]) > 0])
-                whole = np.repeat(np.add.reduceat(area, begin), np.diff(np.r_[begin, len(large)]), 0)
-                bad = (area * whole).sum(1) <= 1e-9 * (whole * whole).sum(1) / count[polygon[large]]
-                for p in np.unique(polygon[large][bad]):
-                    corners = doubles[corner_vertices[starts[p]:starts[p + 1]]]
-                    local[first[p]:first[p] + per[p]] = _clip_ears(_flattened(corners))
-    size = count[polygon][:, None]
-    diagonals = (local + 1) % np.maximum(size, 1) != np.roll(local, -1, 1)
-    return starts[polygon, None] + local, polygon, diagonals
-
-
-def _flattened(points):
-    """(n, 2) the corners of a polygon seen along its normal, counterclockwise."""
-    points = points - points.mean(0)
-    normal = np.cross(points, np.roll(points, -1, 0)).sum(0)
-    length = np.linalg.norm(normal)
-    if not np.isfinite(points).all() or not length > 0:
-        return np.zeros((len(points), 2))
-    normal /= length
-    x = np.zeros(3)
-    x[np.abs(normal).argmin()] = 1
-    x -= normal * (normal @ x)
-    x /= np.linalg.norm(x)
-    flat = points @ np.c_[x, np.cross(normal, x)]
-    return flat / np.abs(flat).max()
-
-
-_FLAT = 1e-12
-"""Of corners in a square of side 2: what rounding makes of three on a line."""
-
-
-def _clip_ears(points):
-    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear is cut first."""
-    xy = points.tolist()
-    n = len(xy)
-    before, after = [(i - 1) % n for i in range(n)], [(i + 1) % n for i in range(n)]
-
-    def shape(i):  # of the triangle at corner i: signed, 0 without area
-        (ax, ay), (bx, by), (cx, cy) = xy[before[i]], xy[i], xy[after[i]]
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        sides = (
-            (bx - ax) ** 2
-            + (by - ay) ** 2
-            + (cx - bx) ** 2
-            + (cy - by) ** 2
-            + (ax - cx) ** 2
-            + (ay - cy) ** 2
-        )
-        return area / sides if sides > 0 else 0.0
-
-    shapes = np.array([shape(i) for i in range(n)])
-    reflex = shapes <= _FLAT
-    alive = [True] * n
-
-    def is_ear(i):  # no corner that is not convex lies in it
-        inside = np.flatnonzero(reflex)
-        a, b, c = points[before[i]], points[i], points[after[i]]
-        q = points[inside]
-        within = np.ones(len(q), bool)
-        for s, t in ((a, b), (b, c), (c, a)):
-            within &= (t[0] - s[0]) * (q[:, 1] - s[1]) - (t[1] - s[1]) * (q[:, 0] - s[0]) >= -_FLAT
-            within &= (q != s).any(1)
-        return not within.any()
-
-    queue = [(-shapes[i], i) for i in range(n) if shapes[i] > _FLAT]
-    heapq.heapify(queue)
-    waiting, triangles, moved = [], [], True
-    while len(triangles) < n - 2:
-        if queue:
-            value, i = heapq.heappop(queue)
-            if not alive[i] or -value != shapes[i]:
-                continue
-            if not is_ear(i):
-                waiting.append((value, i))
-                continue
-        elif waiting and moved:
-            queue, waiting, moved = waiting, [], False
-            heapq.heapify(queue)
-            continue
-        else:  # it crosses itself or has no area: the largest that is left
-            left = [k for k in range(n) if alive[k]]
-            i = max(left, key=lambda k: shapes[k])
-        triangles.append((before[i], i, after[i]))
-        alive[i], reflex[i], moved = False, False, True
-        after[before[i]], before[after[i]] = after[i], before[i]
-        for k in (before[i], after[i]):
-            shapes[k] = shape(k)
-            reflex[k] = shapes[k] <= _FLAT
-            if shapes[k] > _FLAT:
-                heapq.heappush(queue, (-shapes[k], k))
-    return triangles
 
 
 @dataclass
@@ -546,171 +425,6 @@ def distinct(pairs):
                                 return_inverse=True)
     return pairs[where], index.ravel()
 
-
-# Text
-
-def numbers(text, dtype=np.float64):
-    """The numbers of a text (bytes) up to the first word that is none."""
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore', DeprecationWarning)
-        try:
-            return np.fromstring(text, dtype, sep=' ') if text and not text.isspace() else np.zeros(0, dtype)
-        except ValueError:  # from numpy 3 on, words that are not numbers
-            return np.zeros(0, dtype)
-
-
-def word_starts(text):
-    """(n,) bool: at the first letters of words; `text` as uint8, in which up to 32 all is space."""
-    space = text <= 32
-    start = np.empty(len(text), bool)
-    if len(text):
-        start[0] = ~space[0]
-        np.greater(space[:-1], space[1:], out=start[1:])
-    return start
-
-
-def counts_between(at, begins, end):
-    """How many of the ascending places `at` lie from each of the ascending `begins` to the next one."""
-    if not len(begins):
-        return np.zeros(0, np.int64)
-    each, rest = divmod(len(at), len(begins))
-    if not rest and each:  # the same number everywhere, most of the time
-        if (at[::each] >= begins).all() and (at[each - 1:-1:each] < begins[1:]).all():
-            return np.full(len(begins), each)
-    return np.diff(np.searchsorted(at, np.r_[begins, end]))
-
-
-def words_of_lines(text, starts):
-    """Number of words in each line; `starts` are the lines' first bytes in `text` (uint8)."""
-    return counts_between(np.flatnonzero(word_starts(text)), starts, len(text))
-
-
-def without_comments(text):
-    """Spaces in place of # and what follows on its line; `text` (bytes) keeps its length."""
-    if b'#' not in text:
-        return text
-    return b'\n'.join(line if b'#' not in line else line[:line.index(b'#')].ljust(len(line))
-                      for line in text.split(b'\n'))
-
-
-class Lines:
-    """The lines of a text: where each begins, has its first word, and ends."""
-
-    def __init__(self, text):
-        if b'\n' not in text:
-            text = text.replace(b'\r', b'\n')
-        text = self._all = np.frombuffer(text if text.endswith(b'\n') else text + b'\n', np.uint8)
-        self.end = np.flatnonzero(text == 10)
-        self.begin = np.empty_like(self.end)
-        self.begin[0], self.begin[1:] = 0, self.end[:-1] + 1
-        self.word, letter = self.begin, text[self.begin]
-        if ((letter <= 32) & (letter != 10)).any():
-            letters = np.flatnonzero(text > 32)
-            following = np.searchsorted(letters, self.begin)
-            self.word = np.minimum(np.r_[letters, len(text)][following], self.end)
-            letter = text[self.word]
-        self._letter = letter
-        self._of_letter = {}
-
-    def beginning(self, word):
-        """Numbers of the lines whose first word it is."""
-        first = word[0]
-        if first not in self._of_letter:
-            self._of_letter[first] = np.flatnonzero(self._letter == first)
-        found = self._of_letter[first]
-        if len(word) > 1:
-            found = found[self.end[found] - self.word[found] >= len(word)]
-        for k, letter in enumerate(word[1:]):
-            found = found[self._all[self.word[found] + k + 1] == letter]
-        return found[self._all[self.word[found] + len(word)] <= 32]
-
-    def text(self, lines, skipped=0):
-        """uint8: the lines without comments and their first letters, and where each begins in it."""
-        begin, end = self.begin[lines], self.end[lines] + 1
-        length = end - begin
-        if not len(lines):
-            return np.zeros(0, np.uint8), lines
-        if lines[-1] - lines[0] + 1 == len(lines):
-            text = self._all[begin[0]:end[-1]]
-            text = text.copy() if skipped else text
-        else:
-            first, last = lines[0], lines[-1] + 1
-            wanted = np.zeros(last - first, bool)
-            wanted[lines - first] = True
-            part = slice(self.begin[first], self.end[last - 1] + 1)
-            text = self._all[part][np.repeat(wanted, np.diff(np.r_[self.begin[first:last], part.stop]))]
-        new = np.cumsum(length) - length
-        first = new + self.word[lines] - begin
-        for k in range(skipped):
-            text[first + k] = 32
-        if (text == ord('#')).any():
-            text = np.frombuffer(without_comments(text.tobytes()), np.uint8)
-        return text, new
-
-    def words(self, line):
-        """Of one line, without its comment."""
-        return without_comments(self._all[self.begin[line]:self.end[line]].tobytes()).split()
-
-    def rest(self, line, skipped):
-        """(bytes) What follows the first letters of a line."""
-        return self._all[self.word[line] + skipped:self.end[line]].tobytes().strip()
-
-    def shown(self, line):
-        """The line in a message."""
-        return self.rest(line, 0)[:60].decode('utf-8', 'replace')
-
-
-def spliced(text, begin, end, rows, mask):
-    """`text` (uint8) with the bytes rows[k][mask[k]] in place of begin[k]:end[k], ascending and disjoint.
-
-    Returns: (bytes, moved): moved(p) is where byte p of `text`, which is in no such place, has gone.
-    """
-    lengths = mask.sum(1)
-    gaps = np.r_[begin, len(text)] - np.r_[0, end]
-    other = np.tile([True, False], len(gaps))[:-1]
-    spans = np.empty(len(other), np.int64)
-    spans[::2], spans[1::2] = gaps, end - begin
-    kept = text[np.repeat(other, spans)]
-    spans[1::2] = lengths
-    new = np.repeat(~other, spans)
-    result = np.empty(len(new), np.uint8)
-    result[new], result[~new] = rows[mask], kept
-    grown = np.r_[0, np.cumsum(lengths - (end - begin))]
-    return result.tobytes(), lambda p: int(p + grown[np.searchsorted(begin, p, 'left')])
-
-
-def digits(values, lead=b''):
-    """(rows, mask) of bytes, each row `lead` and the decimal digits of a whole number >= 0."""
-    width = len(str(int(values.max()))) if len(values) else 1
-    rows = np.empty((len(values), len(lead) + width), np.uint8)
-    rows[:, :len(lead)] = np.frombuffer(lead, np.uint8)
-    mask = np.ones(rows.shape, bool)
-    rest = values.astype(np.int64)
-    for k in range(width):
-        rows[:, -1 - k] = 48 + rest % 10
-        if k:
-            mask[:, -1 - k] = rest > 0
-        rest = rest // 10
-    return rows, mask
-
-
-def table(form, values):
-    """Lines of text, each `form` % a row of `values`."""
-    return (form * len(values) % tuple(values.ravel().tolist())).encode()
-
-
-def whole(values, kind=np.int64):
-    """Numbers as whole ones of a kind: at its ends what is beyond them, -1 or its largest what is none."""
-    values, ends = np.asarray(values), np.iinfo(kind)
-    if values.dtype.kind == 'f':
-        none = -1 if ends.min < 0 else ends.max
-        values = np.where(np.isfinite(values), np.clip(values, ends.min, ends.max - (ends.max >> 53)), none)
-    elif values.dtype.itemsize > ends.bits // 8 or values.dtype.kind != np.dtype(kind).kind:
-        values = np.clip(values, ends.min, ends.max)
-    return values.astype(kind)
-
-
-# Files
 
 def write_file(path, content):
     """Replaces the file whole, or leaves it as it was."""

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from ._shared import FileError, Lines, MeshFile, numbers
+from ._shared import FileError, MeshFile
+from ._text import Lines, numbers
 
 
 class StlFile(MeshFile):

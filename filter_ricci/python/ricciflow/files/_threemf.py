@@ -12,7 +12,8 @@ from xml.parsers import expat
 import numpy as np
 
 from . import _pictures
-from ._shared import FileError, MeshFile, Part, distinct, rewritten, table, write_file
+from ._shared import FileError, MeshFile, Part, distinct, rewritten, write_file
+from ._text import table
 
 _MATERIALS = 'http://schemas.microsoft.com/3dmanufacturing/material/2015/02'
 _TEXTURE = 'http://schemas.microsoft.com/3dmanufacturing/2013/01/3dtexture'
@@ -64,12 +65,10 @@ class _Model:
             if 'p1' in attributes or 'pid' in attributes:
                 p = get('p1', '0')
                 mesh.properties.append(
-                    (len(mesh.tags) - 1, get('pid'), (int(p), int(get('p2', p)), int(get('p3', p))))
-                )
+                    (len(mesh.tags) - 1, get('pid'), (int(p), int(get('p2', p)), int(get('p3', p)))))
         elif tag == 'object':
             self._object = self.objects[get('id')] = _Object(
-                get('name', ''), get('pid'), int(get('pindex', 0))
-            )
+                get('name', ''), get('pid'), int(get('pindex', 0)))
             if self.first_object is None:
                 self.first_object = self._parser.CurrentByteIndex
         elif tag == 'mesh' and self._object:
@@ -134,8 +133,7 @@ class ThreeMfFile(MeshFile):
                     bad = ((corners < 0) | (corners >= len(own))).any(1)
                     raise FileError(
                         f'{self.path.name}: {int(bad.sum())} faces of object {key}, first of face '
-                        f'{int(bad.argmax()) + 1}, name a vertex beyond its {len(own)}'
-                    )
+                        f'{int(bad.argmax()) + 1}, name a vertex beyond its {len(own)}')
                 part = Part(mesh.name or f'object {key}', slice(face_count, face_count + len(corners)),
                             slice(vertex_count, vertex_count + len(own)),
                             places.get((model.name, key), [np.eye(4)]))
@@ -153,8 +151,7 @@ class ThreeMfFile(MeshFile):
         self.set_polygons(np.concatenate(faces))
         colours, uv, pictures = (np.concatenate(a) for a in zip(*looks))
         self._colours = (
-            None if np.isnan(colours).all() else np.where(np.isnan(colours), 1, colours).astype(np.float32)
-        )
+            None if np.isnan(colours).all() else np.where(np.isnan(colours), 1, colours).astype(np.float32))
         if not np.isnan(uv).all():
             self.uv, self.uv_picture = uv, pictures.astype(np.int32)
             self.pictures = [_pictures.Picture(n, self._part(n)) for n in self._picture_names]
@@ -219,6 +216,9 @@ class ThreeMfFile(MeshFile):
                 stack += [(model, c, here, depth + 1) for c in mesh.components]
         return places
 
+    def holds(self, plain):
+        return False
+
     def corner_colours(self):
         return getattr(self, '_colours', None)
 
@@ -236,8 +236,7 @@ class ThreeMfFile(MeshFile):
         elif self.corner_colours() is not None or self.uv is not None:
             messages.append(
                 'the colours and pictures of the 3MF give way to the coordinates, which show a white '
-                'picture'
-            )
+                'picture')
         name = f'{_PICTURE}.{kind}'
         number = 1
         while self._part(name) is not None:
@@ -267,8 +266,7 @@ class ThreeMfFile(MeshFile):
             resources.append(
                 f'<m:texture2dgroup xmlns:m="{_MATERIALS}" id="{group}" texid="{first}">'.encode()
                 + table('<m:tex2coord u="%.9g" v="%.9g"/>', pairs)
-                + b'</m:texture2dgroup>'
-            )
+                + b'</m:texture2dgroup>')
             vertices = new.vertices[triangles][:, turn].astype(np.int64)
             fresh, where = np.unique(vertices[vertices >= len(self.vertices)], return_inverse=True)
             vertices[vertices >= len(self.vertices)] = where.ravel() + part.vertices.stop
@@ -373,19 +371,16 @@ def plain(mesh):
         + table('<vertex x="%.17g" y="%.17g" z="%.17g"/>', mesh.vertices)
         + b'</vertices><triangles>'
         + triangles
-        + b'</triangles></mesh></object></resources><build><item objectid="1"/></build></model>'
-    )
+        + b'</triangles></mesh></object></resources><build><item objectid="1"/></build></model>')
     kinds = (
         b'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/'
         b'2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.'
         b'relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.'
-        b'3dmanufacturing-3dmodel+xml"/></Types>'
-    )
+        b'3dmanufacturing-3dmodel+xml"/></Types>')
     relations = (
         b'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="' + _RELATIONS.encode() + b'">'
         b'<Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/'
-        b'3dmanufacturing/2013/01/3dmodel"/></Relationships>'
-    )
+        b'3dmanufacturing/2013/01/3dmodel"/></Relationships>')
     out = BytesIO()
     with zipfile.ZipFile(out, 'w', zipfile.ZIP_DEFLATED) as package:
         for entry, content in (('[Content_Types].xml', kinds), ('_rels/.rels', relations),
