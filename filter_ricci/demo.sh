@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The main job on a fresh Debian 12 machine: installs what is missing, builds the plugin, lets stock
-# MeshLab make a torus-like surface by marching cubes, runs the filter on it in stock meshlabserver
-# and in PyMeshLab, and leaves a textured OBJ and a picture in build/demo/.
+# Unwraps a sample mesh on a fresh Debian 12 machine: installs what is missing, builds the plugin, has stock
+# MeshLab build a torus-like surface with marching cubes, runs the filter on it in stock meshlabserver and in
+# PyMeshLab, and leaves a textured OBJ and a picture in build/demo/.
 set -euo pipefail
 # shellcheck source=scripts/machine.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/machine.sh"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that reports to a listener and is ended: at every call of its listener it leaves at once, by the listener's word or by
-// the clock's, and the mesh is bit for bit what it was. What a listener itself throws passes through.
+// A run that reports to a listener and is ended: at every call of its listener it leaves at once, because of the
+// listener's answer or of the clock, and the mesh is bit for bit what it was. What a listener itself throws passes
+// through.
 #include "support/calls.h"
 #include "support/expect.h"
 #include "support/facade_runs.h"

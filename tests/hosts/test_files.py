@@ -183,7 +183,8 @@ class Obj(Folder):
     def test_a_wrong_line_is_named(self):
         for line, what in ((b"f 1 2 x", "line 3 is not a valid face: f 1 2 x"),
                            (b"v 1 2", "line 3 is not a valid vertex: v 1 2"),
-                           (b"f 1/2/3/4 2 1", "line 3 is not a valid face"), (b"v 1 2 3z", "line 3 is not a valid vertex")):
+                           (b"f 1/2/3/4 2 1", "line 3 is not a valid face"),
+                           (b"v 1 2 3z", "line 3 is not a valid vertex")):
             path = self.file("wrong.obj", b"v 0 0 0\nv 1 0 0\n" + line + b"\nf 1 2 1\n")
             with self.assertRaisesRegex(files.FileError, what):
                 files.read(path)

@@ -8,7 +8,8 @@
 
 namespace ricci {
 
-/// Receives the log lines and the progress of a run, see Task (base/task.h). The default listener is silent and never cancels.
+/// Receives the log lines and the progress of a run, see Task (base/task.h). The default listener is
+/// silent and never cancels.
 class Progress
 {
 public:
