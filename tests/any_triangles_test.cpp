@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes that are no oriented manifolds, at the façade. Where a mesh is developable between its cuts,
+// Meshes that are not oriented manifolds, at the façade. Where a mesh is developable between its cuts,
 // its map is known: an isometry.
 #include "support/expect.h"
 #include "support/random_surface.h"
@@ -129,7 +129,7 @@ TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
 }
 
 /// A strip of congruent triangles, each next one across a leg, closed with a half turn. Its shortest
-/// one-sided loop runs along the border but for a leg, which is cut: the strip is laid flat.
+/// one-sided loop runs along the border except for a leg, which is cut: the strip is laid flat.
 TEST(AnyTriangles, AFlatMoebiusBandIsAStrip)
 {
 	const int n = 15;

@@ -3,7 +3,7 @@
 # bash tests/bench.sh [--geometry=euclidean|hyperbolic] [--flow-only]
 #                     [--method=intrinsic_flips|fixed_triangles|edge_swaps|thurston] [MESH|generated:FACES...]
 # bash tests/bench.sh --growth [CASE...]
-# Builds the benchmark and prints a table, with tabulators between the columns and a row for each
+# Builds the benchmark and prints a table, with tabs between the columns and a row for each
 # mesh; without meshes, for a generated one. Speed is compared by the column `ratio`: CPU time of the
 # flow over that of one analysis, factorisation and solution of the same matrix by CHOLMOD with AMD.
 # tests/bench/plot.py draws such a table. --growth prints how processor time grows with the size of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that is heard and ended: at every call of its listener it leaves at once, by the listener's word or by
+// A run that reports to a listener and is ended: at every call of its listener it leaves at once, by the listener's word or by
 // the clock's, and the mesh is bit for bit what it was. What a listener itself throws passes through.
 #include "support/calls.h"
 #include "support/expect.h"
@@ -25,7 +25,7 @@
 namespace ricci::testing {
 namespace {
 
-/// Hears all, and does something at one of the calls.
+/// Receives all calls, and does something at one of them.
 class Caller : public Progress
 {
 public:
@@ -89,7 +89,7 @@ protected:
 	{
 		build(GetParam().mesh, m_mesh);
 		m_before = contents(m_mesh);
-		heard(m_all, [&] { return GetParam().run(m_mesh); });
+		withListener(m_all, [&] { return GetParam().run(m_mesh); });
 	}
 
 	/// The mesh is what it was.
@@ -134,7 +134,8 @@ TEST_P(Cancel, AtAnyCallTheRunEndsAtOnce)
 	constexpr int kMost = 50;
 	for (const int call : calls(kMost)) {
 		Caller cancel(call);
-		EXPECT_THROW(heard(cancel, [&] { return GetParam().run(m_mesh); }), Cancelled) << call;
+		EXPECT_THROW(withListener(cancel, [&] { return GetParam().run(m_mesh); }), Cancelled)
+			<< call;
 		EXPECT_EQ(static_cast<int>(cancel.fractions.size()), call + 1)
 			<< "called again after a refusal to go on";
 		// Calls at which nothing is counted are the same in each run.
@@ -193,14 +194,15 @@ TEST_P(Cancel, WhatTheListenerThrowsPassesThrough)
 {
 	for (const int call : calls(10)) {
 		Caller broken(call, []() -> bool { throw FullDisk(); });
-		EXPECT_THROW(heard(broken, [&] { return GetParam().run(m_mesh); }), FullDisk) << call;
+		EXPECT_THROW(withListener(broken, [&] { return GetParam().run(m_mesh); }), FullDisk)
+			<< call;
 	}
 	struct Writer : Progress
 	{
 		void log(const std::string&) override { throw FullDisk(); }
 	} writer;
 	if (GetParam().name != "Sphere") { // of which nothing is logged
-		EXPECT_THROW(heard(writer, [&] { return GetParam().run(m_mesh); }), FullDisk);
+		EXPECT_THROW(withListener(writer, [&] { return GetParam().run(m_mesh); }), FullDisk);
 	}
 	expectUntouched();
 }
@@ -275,7 +277,7 @@ TEST_P(Pauses, AreShort)
 	const Call call = largeRun(GetParam());
 	const double start = Clock::seconds();
 	Clock clock;
-	heard(clock, [&] { return outcomeOf(call); });
+	withListener(clock, [&] { return outcomeOf(call); });
 	EXPECT_LT(clock.longest, (Clock::seconds() - start) / 3) << "before " << clock.before;
 }
 

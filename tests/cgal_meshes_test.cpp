@@ -105,7 +105,7 @@ struct PipelineCheck
 	std::string refusal; ///< the algorithm's sentence; empty if the mesh was mapped
 	std::string defect;  ///< what is wrong with the map, if it was; empty if nothing is
 	/// Pieces that the map shrinks so much that the last digit of their places in the plane decides
-	/// on their orientation. They are no defect of the algorithm's.
+	/// on their orientation. They are not a defect of the algorithm.
 	int belowResolution = 0;
 	Report report;
 

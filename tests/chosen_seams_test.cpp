@@ -273,7 +273,7 @@ TEST(ChosenSeams, MakeARectangleOfACylinder)
 	ASSERT_TRUE(r.report.rectangleAspect.has_value());
 	EXPECT_NEAR(*r.report.rectangleAspect, perimeter / (0.6 * kUp), 1e-9);
 	expectCounts(mesh, insideEdges(mesh, marks), r.report);
-	// Uncut it is no disk.
+	// Uncut it is not a disk.
 	EXPECT_EQ(
 		refusalOf<InvalidOption>([&] { Flow::Compute(m, params); }).problem,
 		InvalidOption::NotADisk);
@@ -490,7 +490,7 @@ TEST(ChosenSeams, AreThoseSelected)
 	EXPECT_TRUE(Seams::OfSelectedEdges(m).empty());
 }
 
-/// What was cut once is cut again where the mesh is mapped anew along its texture seams.
+/// What was cut once is cut again where the mesh is mapped again along its texture seams.
 TEST(ChosenSeams, KeepTheSeamsOfAMap)
 {
 	for (const SurfaceMesh& mesh : {sphere(12, 16), torus(3.0, 1.0, 14, 9), perforatedSlab(2, 2)}) {

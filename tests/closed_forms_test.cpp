@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps and conformal invariants that are known in closed form, by the whole way from mesh to plane.
+// Maps and conformal invariants that are known in closed form, by complete runs from mesh to plane.
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -265,7 +265,7 @@ TEST(Invariants, OfARectangleWithOtherCorners)
 }
 
 /// The integral of (1 + t^4)^(-1/2), the inverse of a lemniscate sine, maps the unit disk to a square whose sides
-/// touch the images of 1, i, -1 and -i. Cross-ratios see the map but for a Moebius transformation of the disk.
+/// touch the images of 1, i, -1 and -i. Cross-ratios see the map except for a Moebius transformation of the disk.
 TEST(Invariants, OfASquareMappedToADisk)
 {
 	const auto toSquare = [](double radius) {

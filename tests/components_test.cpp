@@ -198,7 +198,7 @@ TEST(Components, LogInTheirOrderWhicheverThreadTheyAreIn)
 	const SurfaceMesh mesh = sheets(kCount, kCount);
 	for (int round = 0; round < 8; ++round) {
 		Listener listener;
-		heard(listener, [&] { return parametrizeEuclidean(mesh, {}, {}); });
+		withListener(listener, [&] { return parametrizeEuclidean(mesh, {}, {}); });
 		int next = 0;
 		for (const std::string& line : listener.lines)
 			if (line.rfind("Component of ", 0) == 0) {
@@ -217,8 +217,9 @@ TEST(Components, OfTheErrorsInThreadsThatOfTheFirstIsThrown)
 	options.target = TargetCurvature::Disk;
 	for (int round = 0; round < 20; ++round) {
 		Listener listener;
-		const auto error = refusalOf<InvalidOption>(
-			[&] { heard(listener, [&] { return parametrizeEuclidean(mesh, {}, options); }); });
+		const auto error = refusalOf<InvalidOption>([&] {
+			withListener(listener, [&] { return parametrizeEuclidean(mesh, {}, options); });
+		});
 		EXPECT_EQ(error.problem, InvalidOption::NotADisk);
 		EXPECT_EQ(error.componentFace, 12 * (6 + 7 + 8 + 9 + 10));
 		EXPECT_EQ(error.componentFaces, 8u * (9 + kBad));
@@ -244,7 +245,7 @@ TEST(Components, ShareTheProgressByTheirFaces)
 		double now = 0.0;
 		std::vector<double> begins;
 	} progress;
-	heard(progress, [&] { return parametrizeEuclidean(mesh, {}, {}); });
+	withListener(progress, [&] { return parametrizeEuclidean(mesh, {}, {}); });
 	ASSERT_EQ(progress.begins.size(), 3u);
 	EXPECT_EQ(progress.begins[0], 0.0);
 	EXPECT_NEAR(progress.begins[1] / progress.begins[2], 72.0 / (72.0 + 84.0), 1e-12);

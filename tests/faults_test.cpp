@@ -238,11 +238,12 @@ TEST(Faults, AHostWithDecimalCommasGetsTheSame)
 			build(c.mesh, m);
 			const std::string before = contents(m);
 			Listener listener;
-			const Flow::Result result = heard(listener, [&] { return Flow::Compute(m, c.params); });
+			const Flow::Result result =
+				withListener(listener, [&] { return Flow::Compute(m, c.params); });
 			Options refused = c.params;
 			refused.epsilon = -0.5;
 			try {
-				heard(listener, [&] { return Flow::Compute(m, refused); });
+				withListener(listener, [&] { return Flow::Compute(m, refused); });
 			}
 			catch (const Error& error) {
 				listener.log(error.what());

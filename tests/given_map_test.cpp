@@ -154,7 +154,7 @@ TEST(GivenMap, IsKeptWhereItIsBest)
 	expectNoFault(map.report);
 }
 
-/// Flipped or overlapping charts are mapped anew, mirrored ones are turned over.
+/// Flipped or overlapping charts are mapped again, mirrored ones are turned over.
 TEST(GivenMap, IsMappedAnewWhereItIsWrong)
 {
 	const SurfaceMesh sheet = rectangle(8, 6, 4, 3);
@@ -245,7 +245,7 @@ TEST(GivenMap, IsOnlyPackedWhereThatIsAskedFor)
 			doubledArea(map.mesh.at(f)) > 0.0,
 			doubledArea(mesh.map[at(map.mesh.face[f])].uv) > 0.0);
 
-	options.turns = ChartTurns::None; // then it is the same picture but for its place and scale
+	options.turns = ChartTurns::None; // then it is the same picture except for its place and scale
 	const Parametrization upright = parametrizeEuclidean(mesh, {}, options);
 	const Point2 side = mesh.map[0].uv[1] - mesh.map[0].uv[0];
 	const double scale = distance(upright.mesh.at(0)[0], upright.mesh.at(0)[1]) / length(side);

@@ -29,7 +29,7 @@ Options refined(TargetCurvature target, bool freeBoundary = true)
 	options.freeBoundary = freeBoundary;
 	options.epsilon = 1e-10;
 	options.output = OutputTriangulation::CommonRefinement;
-	options.finish = Finish::None;      // the refinement is exact, but for floats
+	options.finish = Finish::None;      // the refinement is exact, except for floats
 	options.charts = Charts::OfTheFlow; // other cuts may cross faces, the flow's own seams may not
 	return options;
 }

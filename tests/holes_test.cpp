@@ -110,7 +110,7 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 
 TEST(CappedHoles, TurnAnAnnulusIntoADisk)
 {
-	// Removing a disk from the middle of a disk and closing it again is no change of the conformal
+	// Removing a disk from the middle of a disk and closing it again is not a change of the conformal
 	// structure in the limit: the ring becomes the plane ring that it is.
 	const SurfaceMesh mesh = ring(0.2, 1.0, 48, 12);
 	Options options = capped();

@@ -202,7 +202,7 @@ protected:
 			bitsOf(outcomeOf({m_call.name, mesh, m_call.options, m_call.input})) == m_bits, true);
 	}
 
-	/// All the same but for rounding, decisions included.
+	/// All the same except for rounding, decisions included.
 	Outcome expectAlike(const SurfaceMesh& mesh) const
 	{
 		const Outcome other = outcomeOf({m_call.name, mesh, m_call.options, m_call.input});
@@ -226,7 +226,7 @@ protected:
 		return other;
 	}
 
-	/// What the flow finds at vertices, but for the scale of a Euclidean metric.
+	/// What the flow finds at vertices, except for the scale of a Euclidean metric.
 	/// \param old the number of a vertex before
 	void expectSameFlow(
 		const Outcome& other,
@@ -314,7 +314,7 @@ TEST_P(Invariance, Moved)
 	SurfaceMesh mesh = m_call.mesh;
 	for (Point3& p : mesh.positions)
 		p = p + Point3{3, -5, 7};
-	if (readsPlaces() || m_call.name == "Box") // whose thirds are no multiples of 2^-20
+	if (readsPlaces() || m_call.name == "Box") // whose thirds are not multiples of 2^-20
 		expectAlike(mesh);
 	else
 		expectSameBits(mesh);

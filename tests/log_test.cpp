@@ -151,7 +151,7 @@ std::vector<Log> logs()
 	VertexInput bent;
 	bent.targetCurvature = {-3, 0, 0, 0, 0, 0, 0, 0};
 	const std::string noBoundary =
-		"The target prescribes the boundary: the choice of a free boundary has no effect on it.";
+		"The target prescribes the boundary: the option of a free boundary has no effect.";
 	const std::string isSphere =
 		"a closed surface of genus 0 (a sphere) has no flat metric without them";
 	const Options separate = with([](Options& o) { o.charts = Charts::WithoutOverlap; });
@@ -187,15 +187,14 @@ std::vector<Log> logs()
 		 [=](const Lines& l, const Parametrization& map) -> Groups {
 			 std::vector<std::string> last;
 			 if (map.report.endedEarly > 0)
-				 last.emplace_back(
-					 "The finish has ended at the bound on its steps: the map could still "
-					 "become a little better.");
+				 last.emplace_back("The finish stopped at its step limit: the map could still be "
+								   "slightly better.");
 			 last.push_back(l.boundary());
 			 if (map.report.unequalSeams > 0)
 				 last.push_back(
 					 std::to_string(map.report.unequalSeams) +
-					 " edges of the seams are longer on one side than on the other: flipped faces "
-					 "beside them were mended.");
+					 " seam edges are longer on one side than on the other: flipped faces next to "
+					 "them were repaired.");
 			 return {
 				 {l.component("a disk"),
 				  Lines::kFree,
@@ -216,7 +215,7 @@ std::vector<Log> logs()
 				 l.newton(),
 				 {l.boundary()}};
 		 },
-		 "cones, because without them areas would spread by #, more than was asked for"},
+		 "cones, because without them areas would spread by #, more than allowed"},
 		{{"Unfolded", plate, separate},
 		 [=](const Lines& l, const Parametrization&) -> Groups {
 			 return {
@@ -236,7 +235,7 @@ std::vector<Log> logs()
 				  "Cones: " + isSphere + ".",
 				  l.cones()},
 				 l.newton(),
-				 // Before it is cut for room.
+				 // Before it is cut for packing.
 				 {"Automatic: cones, because " + isSphere +
 				  "; as a whole: energy 4, seams # (objective #); cut along creases and unfolded: "
 				  "energy 4, seams # (objective #)."}};
@@ -248,8 +247,8 @@ std::vector<Log> logs()
 		 [=](const Lines& l, const Parametrization&) -> Groups {
 			 return {
 				 {l.component("a disk"), noBoundary},
-				 l.newton("Solve # for the circle: its angles follow the lengths that the boundary "
-						  "has now.")};
+				 l.newton("Solve # for the circle: its angles are updated to the present lengths "
+						  "of the boundary.")};
 		 },
 		 ""},
 		{{"Rectangle", sheet, with([](Options& o) {
@@ -263,8 +262,8 @@ std::vector<Log> logs()
 				  "corners of the smallest rectangle around the boundary.",
 				  noBoundary},
 				 l.newton(),
-				 {"The boundary or the turns across seams are prescribed: least distortion, not "
-				  "least stretch."}};
+				 {"The boundary or the turns across seams are prescribed: the finish is least "
+				  "distortion instead of least stretch."}};
 		 },
 		 ""},
 		{{"ConesOnTheBoundary",
@@ -275,7 +274,7 @@ std::vector<Log> logs()
 			 return {
 				 {l.component("a disk"),
 				  "3 cones of curvature 2.0943951 each.", // 2 pi / 3
-				  "Cones lie on the boundary, which is therefore prescribed: the choice of a free "
+				  "Cones lie on the boundary, which is therefore prescribed: the option of a free "
 				  "boundary has no effect."},
 				 l.newton("Another solve, on the double of the surface: on the surface alone, the "
 						  "boundary bends.")};
@@ -291,7 +290,7 @@ std::vector<Log> logs()
 				 l.newton("Another solve, on the double of the surface: on the surface alone, the "
 						  "boundary bends.")};
 		 },
-		 "no cones, because of the surface's topology and the boundary asked for"},
+		 "no cones, because of the topology and the requested boundary"},
 		{{"QuarterTurns", handles, with([](Options& o) {
 			  o.target = TargetCurvature::PlacedCones;
 			  o.cones.rounding = ConeRounding::QuarterTurns;
@@ -330,12 +329,11 @@ std::vector<Log> logs()
 				 {l.component("a disk"), l.cones(), Lines::kFree},
 				 l.newton(),
 				 {"Some faces have no area, or one side a million times shorter than another: the "
-				  "flow sees the edges at 1 of the vertices longer, by up to " +
-					  three(r.lengthened) + " of what they then are.",
-				  "The residual asked for is below what rounding allows: the curvature is reached "
-				  "to " +
-					  three(r.maxCurvatureError) + " (rounding floor " + three(r.residualFloor) +
-					  ")."}};
+				  "solver lengthened the edges at 1 of the vertices, by up to " +
+					  three(r.lengthened) + " of their new length.",
+				  "The requested accuracy is beyond rounding: the curvature is within " +
+					  three(r.maxCurvatureError) + " of its target (rounding floor " +
+					  three(r.residualFloor) + ")."}};
 		 },
 		 ""},
 		{{"HyperbolicCones",
@@ -371,10 +369,10 @@ std::vector<Log> logs()
 			 return {
 				 {l.component("a closed surface of genus 16")},
 				 l.newton(),
-				 {"The short seams lead # out in the disk, too far for floats. Longer ones around "
-				  "the middle lead # out.",
-				  "There are no canonical generators: they would move points farther than floating "
-				  "point numbers can tell."}};
+				 {"The short seams reach # out in the disk, too far for floats. Longer seams "
+				  "around the centre reach # out.",
+				  "There are no canonical generators: they would move points farther than "
+				  "floating-point numbers can resolve."}};
 		 },
 		 ""}};
 }
@@ -387,7 +385,7 @@ TEST_P(Logs, SayWhatWasDone)
 {
 	const Log& log = GetParam();
 	Listener listener;
-	const Parametrization map = heard(listener, [&] { return outcomeOf(log).map; });
+	const Parametrization map = withListener(listener, [&] { return outcomeOf(log).map; });
 	std::vector<std::string> expected;
 	for (const std::vector<std::string>& group : log.expected(Lines(log.mesh, map), map))
 		expected.insert(expected.end(), group.begin(), group.end());
@@ -424,7 +422,7 @@ TEST(Logs, SayWhatWasDoneToTheMesh)
 	const auto notesOf = [](const SurfaceMesh& surface) {
 		Listener listener;
 		const Parametrization map =
-			heard(listener, [&] { return parametrizeEuclidean(surface, {}, {}); });
+			withListener(listener, [&] { return parametrizeEuclidean(surface, {}, {}); });
 		EXPECT_TRUE(std::equal(map.notes.begin(), map.notes.begin() + 9, listener.lines.begin()));
 		const Report& r = map.report;
 		const auto expectCount = [&](std::size_t i, int count) {
@@ -441,26 +439,26 @@ TEST(Logs, SayWhatWasDoneToTheMesh)
 	};
 	const std::vector<std::string> once{
 		"1 vertex belongs to no face and is left out.",
-		"2 faces were oriented against the rest of the surface and counted as inverted.",
-		"1 face has the vertices of another and is a sheet of its own.",
-		"6 edges of more than two faces were cut: sheets go on where they are smoothest.",
-		"1 edge is a seam, as chosen.",
-		"1 seam of one edge alone goes on along one more: without it, nothing would come apart "
-		"there.",
+		"2 faces were turned over for the map: inverted winding (inconsistent normals).",
+		"1 face duplicates another and is a separate sheet.",
+		"6 edges with more than two faces were cut: the sheets continue where they are smoothest.",
+		"1 edge is a chosen seam.",
+		"1 seam of a single edge was extended by another edge, because a single edge does not "
+		"open.",
 		"1 one-sided component was cut along short one-sided loops.",
-		"8 vertices have more than one fan of faces, each with a place of its own in the map.",
-		"1 face has no area and is drawn as the line or the point that it is."};
+		"8 vertices have more than one triangle fan, each with its own place in the map.",
+		"1 face has no area and is drawn as a line or a point."};
 	const std::vector<std::string> twice{
 		"2 vertices belong to no face and are left out.",
-		"4 faces were oriented against the rest of the surface and counted as inverted.",
-		"2 faces have the vertices of another and are sheets of their own.",
-		"12 edges of more than two faces were cut: sheets go on where they are smoothest.",
-		"2 edges are seams, as chosen.",
-		"2 seams of one edge alone go on along one more: without it, nothing would come apart "
-		"there.",
+		"4 faces were turned over for the map: inverted winding (inconsistent normals).",
+		"2 faces duplicate others and are separate sheets.",
+		"12 edges with more than two faces were cut: the sheets continue where they are smoothest.",
+		"2 edges are chosen seams.",
+		"2 seams of a single edge were extended by another edge, because a single edge does not "
+		"open.",
 		"2 one-sided components were cut along short one-sided loops.",
-		"16 vertices have more than one fan of faces, each with a place of its own in the map.",
-		"2 faces have no area and are drawn as the lines or the points that they are."};
+		"16 vertices have more than one triangle fan, each with its own place in the map.",
+		"2 faces have no area and are drawn as lines or points."};
 	EXPECT_EQ(notesOf(mesh), once);
 	SurfaceMesh both = sideBySide(mesh, mesh, 50);
 	both.seam = mesh.seam;
@@ -481,8 +479,8 @@ TEST(Logs, AreOfTheLargestComponents)
 	const std::size_t small = notesOf(rectangle(1, 1, 1, 1)).size();
 	ASSERT_GT(small, 0u);
 	Listener listener;
-	const Parametrization map =
-		heard(listener, [&] { return parametrizeEuclidean(sideBySide(mesh, large, 100), {}, {}); });
+	const Parametrization map = withListener(
+		listener, [&] { return parametrizeEuclidean(sideBySide(mesh, large, 100), {}, {}); });
 	const std::vector<std::string> alone = notesOf(large);
 	ASSERT_EQ(map.notes.size(), 19 * small + alone.size());
 	EXPECT_EQ(map.notes[19 * small], alone.front());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way from a mesh to the Poincaré disk.
+// Complete runs from a mesh to the Poincaré disk.
 #include "support/complex.h"
 #include "support/flat_map.h"
 #include "support/implicit_surface.h"
@@ -77,7 +77,7 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 {
 	const SurfaceMesh mesh = genusTwo();
 	const FlatResult kept = run(mesh), exact = run(mesh, refined());
-	// One figure but for a motion of the disk: seen from one corner in the direction of the next.
+	// One figure except for a motion of the disk: seen from one corner in the direction of the next.
 	const auto seen = [](const FlatResult& map, const Point2& p) {
 		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
 		return seenFrom(map.uv[0][0], p) * std::abs(towards) / towards;
@@ -285,8 +285,9 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 {
 	for (const int genus : {14, 16}) {
 		Listener listener;
-		const FlatResult map = heard(listener, [&] { return run(perforatedSlab(genus, 2)); });
-		EXPECT_GT(listener.count("around the middle"), 0);
+		const FlatResult map =
+			withListener(listener, [&] { return run(perforatedSlab(genus, 2)); });
+		EXPECT_GT(listener.count("around the centre"), 0);
 		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);
 		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);

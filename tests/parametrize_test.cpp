@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way from a mesh to the plane, on surfaces whose conformal map is known or whose flat
+// Complete runs from a mesh to the plane, on surfaces whose conformal map is known or whose flat
 // metric can be checked in the plane.
 #include "support/expect.h"
 #include "support/flat_map.h"

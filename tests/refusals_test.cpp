@@ -202,7 +202,7 @@ std::vector<Refusal> options()
 			"between 0 and 0.25");
 	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston}) {
 		const bool isKept = method == Method::FixedTriangles;
-		const char* words = "The common refinement and capped holes belong to intrinsic flips";
+		const char* words = "The common refinement and capped holes need intrinsic flips";
 		const auto refine = [=](FlowOptions& o) {
 			o.method = method;
 			o.output = OutputTriangulation::CommonRefinement;
@@ -392,7 +392,7 @@ std::vector<Refusal> curvatures()
 		o.freeBoundary = true;
 	});
 	using E = InadmissibleCurvature;
-	/// Prescribes 0 but for some vertices.
+	/// Prescribes 0 except for some vertices.
 	const auto add = [&](const char* name,
 						 const SurfaceMesh& mesh,
 						 const auto& options,

@@ -335,15 +335,13 @@ void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap&
 /// The host draws nothing of what the filter writes until it is told to.
 std::string whereToLook(bool colorize, const Results& results)
 {
-	const std::string colours =
-		colorize
-			? "The colours show the distortion, from " + colourRamp(results) +
-				  " (drawn where Color is Vert)"
-			: "Filters > Color Creation and Processing > 'Colorize by vertex Quality' colours the "
-			  "mesh by its distortion";
-	return "To see it: Filters > Texture > 'Set Texture' lays an image, such as a checkerboard, "
-		   "on the surface. " +
-		   colours + "; Render > '" + host::kHistogramName + "' shows how it is spread.";
+	const std::string colours = colorize ? "The colours show the distortion, from " +
+											   colourRamp(results) + " (drawn where Color is Vert)"
+										 : "Filters > Color Creation and Processing > 'Colorize by "
+										   "vertex Quality' colours the mesh by angle distortion";
+	return "To see it: Filters > Texture > 'Set Texture' applies an image, such as a checkerboard, "
+		   "to the surface. " +
+		   colours + "; Render > '" + host::kHistogramName + "' shows its distribution.";
 }
 
 int changedElements(bool colorize, bool hasTexture, ricci::OutputTriangulation output)
@@ -387,8 +385,8 @@ void writeMesh(
 		removeColours(model);
 }
 
-/// The flow with room for the gutter of a texture between its charts.
-/// \throw Refusal if there is none for so many charts
+/// The flow with padding for a texture between its charts.
+/// \throw Refusal if so many charts do not fit
 Flow::Result
 computeFor(const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Openings& seams)
 {
@@ -523,22 +521,21 @@ private:
 		for (const std::string& doubt : doubts(filter, results, par))
 			lines.push_back(doubt);
 		if (report.piecesApart > 0)
-			lines.push_back(
-				"{join_vertices} 'Always' joins pieces that lie on others along edges with "
-				"vertices of their own.");
+			lines.push_back("{join_vertices} 'Always' joins pieces that touch along edges without "
+							"sharing vertices.");
 		if (!seams.map.empty() && report.chosenSeamEdges == 0)
-			lines.push_back("The texture coordinates jump at no edge inside the surface: there are "
-							"no seams to keep but its borders.");
+			lines.push_back("The UVs are continuous across every edge inside the surface: its "
+							"border is the only seam to keep.");
 		if (isStretched(model.cm))
-			lines.push_back("The matrix of the layer stretches the mesh: it is flattened as it is "
-							"seen, and measured so.");
+			lines.push_back("The matrix of the layer stretches the mesh: the mesh is flattened and "
+							"measured as it is displayed.");
 		if (2 * report.chosenSeamEdges > kManySeams * model.cm.fn)
 			lines.push_back(
-				"The surface is opened at " + std::to_string(report.chosenSeamEdges) +
-				" chosen edges, at most of those that it has: its charts are of single faces.");
+				"The surface is cut at " + std::to_string(report.chosenSeamEdges) +
+				" chosen edges, which are most of its edges: many charts are single faces.");
 		if (!texture.isWanted() && !model.cm.textures.empty())
-			lines.push_back("The image that the mesh has no longer fits its texture coordinates: "
-							"{carry_texture} draws it for the new ones.");
+			lines.push_back("The texture of the mesh no longer fits its UVs: {carry_texture} bakes "
+							"it for the new ones.");
 		return lines;
 	}
 

@@ -96,9 +96,8 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 	m_name = host::textureName(path, absolutePath("", folder));
 	if (!isKeptByFiles(m_name))
 		refuse(
-			shown +
-			": files of meshes keep no blanks, no } or ~, and no letters beyond ASCII in the "
-			"names and folders of textures. Choose another name or place.");
+			shown + ": mesh files cannot hold spaces, } or ~, or letters beyond ASCII in the names "
+					"and folders of textures. Choose another name or folder.");
 	m_size = settings.size;
 	readFaces(model);
 	for (const std::string& old : model.cm.textures)
@@ -298,10 +297,10 @@ void CarriedTexture::describe(Results& results) const
 		ricci::texelDensity(m_mesh, m_areas, pictureSizes(), m_size);
 	if (density.ratio > 0.0) {
 		line += ", from " + std::to_string(count) + (count == 1 ? " image. " : " images. ") +
-				ricci::numberText(density.before, 4) + " texels for a unit of length before, " +
+				ricci::numberText(density.before, 4) + " texels per unit of length before, " +
 				ricci::numberText(density.after, 4) + " after";
 		results.push_back(
-			{"texture_scale", density.ratio, "Texels for a unit of length, new over old"});
+			{"texture_scale", density.ratio, "Texels per unit of length, new over old"});
 	}
 	else
 		line += ", from the colours of the mesh";
@@ -335,7 +334,7 @@ void CarriedTexture::draw(const ricci::Parametrization& result, Results& results
 		drawSamples<unsigned char>();
 	describe(results);
 	if (result.report.overlappingCharts > 0)
-		ricci::logLine("Texture: where charts overlap, it shows one of the faces only.");
+		ricci::logLine("Texture: where charts overlap, it shows only one of the faces.");
 	m_mesh = {};
 	m_pictures.clear();
 }

@@ -118,8 +118,8 @@ std::string inWords(const ricci::InvalidOption& e)
 		return "{chart_margin} " + numberText(e.value, 6, std::chars_format::fixed) +
 			   " leaves no room for " + count + " charts: choose a smaller one.";
 	case Error::WithoutFlips:
-		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
-			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
+		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
+			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";
 	case Error::WithoutPositions:
 		return reported(e);
 	case Error::HyperbolicMethod:

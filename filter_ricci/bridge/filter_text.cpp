@@ -91,20 +91,21 @@ FilterText filterText(int filter)
 		return {
 			"Generalized Ricci Flow (Euclidean)",
 			"compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge",
-			"<b>UV unwrap</b>: flattens any triangle mesh, with its angles kept, into few charts "
-			"that do not overlap. A conformal parametrization per wedge, by the generalized "
-			"discrete Ricci flow; the vertex quality becomes the distortion (1 = angles kept)." +
+			"<b>UV unwrap</b>: flattens any triangle mesh into few charts (UV islands) that do not "
+			"overlap, with little angle distortion. A conformal parametrization per wedge, by the "
+			"generalized discrete Ricci flow; the vertex quality becomes the distortion (1 = "
+			"none)." +
 				reference};
 	case Hyperbolic:
 		return {
 			"Generalized Ricci Flow (Hyperbolic)",
 			"compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge",
 			"<b>Hyperbolic uniformization</b>: flattens a mesh with handles or holes into the "
-			"Poincaré disk, with its angles kept. The parametrization is by the conformal metric "
-			"of curvature -1, for meshes of negative Euler characteristic (two handles, a handle "
-			"and a boundary, or three boundaries), or any with cones that make up for it. Texture "
-			"coordinates are stored per wedge, and the distortion (1 = angles kept) as the "
-			"vertex quality." +
+			"Poincaré disk, with little angle distortion. The parametrization is by the conformal "
+			"metric of curvature -1, for meshes of negative Euler characteristic (two handles, a "
+			"handle and a boundary, or three boundaries), or any with cones that make up for it. "
+			"Texture coordinates are stored per wedge, and the distortion (1 = none) as the vertex "
+			"quality." +
 				reference};
 	default:
 		throw std::logic_error("This plugin has no filter with that id.");

@@ -97,7 +97,7 @@ double freeAddresses(const std::string& root)
 			continue;
 		std::istringstream values(line.substr(key.size()));
 		values.imbue(std::locale::classic());
-		double limit = -1.0; // "unlimited" is no number
+		double limit = -1.0; // "unlimited" is not a number
 		if (values >> limit && pages >= 0.0)
 			return std::max(limit - kPage * pages, 1.0);
 	}

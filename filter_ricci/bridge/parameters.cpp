@@ -19,104 +19,97 @@ namespace filter_ricci {
 
 namespace {
 
-// A parameter: its name and default, its label, and its choices or its type; then its tooltip, behind tabulators. What
+// A parameter: its name and default, its label, and its choices or its type; then its tooltip, behind tabs. What
 // a first run needs comes first; what few runs need is marked by +. The choices have the order of the enums of the same
 // name in ricci/options.h. A name alone stands for the parameter of the Euclidean filter.
 
 const char* const kEuclidean = R"(
 target_curvature = Automatic | Target curvature | Automatic; Flat everywhere; Disk; Rectangle; Cones at selected vertices; From vertex quality; Placed cones
-	What the flow is asked to reach. <b>Automatic</b> suits most meshes: it places cones where areas would change much.
+	Shape of the UV layout: its outline, and its cones, the points where it is not flat. <b>Automatic</b> suits most
+	meshes.
 free_boundary = true | Free boundary | bool
-	The boundary keeps its lengths, but for what the finish changes. Not read for Disk, Rectangle and the flat annulus.
+	Let the outline of an open mesh take its natural shape. Ignored by Disk, Rectangle and flat annuli.
 cone_distortion = 0 | Cones: area distortion | float
-	0: the cones that are worth their seams. Above 0: so many that areas change by less than this (0.25: by a quarter).
+	Largest area distortion that cones may leave (0.25: 25 %). 0: area distortion and seam length are balanced.
 seams = Shortest | Seams | Shortest; Existing texture seams; Selected edges; Border of selected faces
-	<b>Shortest</b>, or first where you choose: at texture seams, along selected edges ('Select Crease Edges'), or round
+	Cut along the shortest paths only, or first along the existing UV seams, the selected edges or the outline of the
 	selected faces.
 output_triangulation = Keep the mesh | Output triangulation | Keep the mesh; Common refinement
-	<b>Common refinement</b>: faces are divided where the flow's edges cross them, so that the map is exact on every
-	piece.
-chart_margin = 0 | Margin of the charts | float
-	Room round each chart, as a share of the side of the square, for baking. 0.004: 4 pixels of 1024, 8 of 2048.
+	<b>Common refinement</b> adds vertices where edges of the solver cross those of the mesh, so that the map is exact on
+	every piece.
+chart_margin = 0 | Chart margin | float
+	Padding between two charts (UV islands) and to the border, as a fraction of the texture size. 0.004: 4 pixels at 1024.
 colorize = false | Colour by distortion | bool
-	Colour the vertices from blue (angles kept) over cyan, green and yellow to red (the 99th percentile over the faces,
-	and more).
+	Colour the vertices by angle distortion: from blue (none) to red (99th percentile or worse).
 flat_layer = false | Flat mesh as new layer | bool
 	Add a layer with the mesh laid out in the plane, cut along its seams.
 + holes = Short ones capped | Holes | Boundaries; Capped; Short ones capped
-	Boundary loops other than the longest: boundaries too, or <b>Capped</b> for the flow, so that the chart goes round
-	them without seams. <b>Short ones capped</b>: those within a tenth of the root of the area, even if all are.
-+ seam_hiding = 0 | Seams: hide in hollows | float
-	0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten times its length, so that seams run
-	through hollows.
+	Fill holes while solving, so that no seam runs to them: all boundary loops but the longest, or only short ones (0.1
+	√area).
++ seam_hiding = 0 | Seams: prefer concave areas | float
+	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 + cone_count = 0 | Cones: number | int
-	The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
+	The number of placed cones. 0: 'Cones: area distortion' decides.
 + cone_rounding = Free | Cones: curvatures | Free; Multiples of pi/2
-	<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as quadrangulations need them; all seams then
+	<b>Free</b>: the least area distortion. <b>Multiples of pi/2</b>: a seamless map for quad remeshing, whose seams
 	differ by quarter turns.
 + method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles; Edge swaps; Thurston
-	If a triangle breaks, <b>intrinsic flips</b> or the paper's <b>edge swaps</b> give the flow others, and <b>fixed
-	triangles</b> end with an error; the mesh is never changed. <b>Thurston</b>: the conventional flow on the mesh's
-	triangles, to compare with.
+	What happens when a triangle degenerates during the solve: the solver flips edges (recommended) or swaps them, or the
+	run fails. <b>Thurston</b>: the conventional flow.
 + finish = Least distortion | Finish | None; Repair; Least distortion; Least stretch
-	Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the least mean conformal distortion,
-	or the <b>least stretch</b>, of lengths too: best on chosen seams, whose sides then differ. Only for the method
-	'Intrinsic flips'.
+	After the solve, repair flipped faces; then minimise angle distortion, or <b>stretch</b>, where the two sides of a
+	seam may differ. Needs 'Intrinsic flips'.
 + charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room; As they are, only packed
-	<b>Without overlap</b>: charts that cover a part of the plane twice are cut apart along the shortest lines. <b>Cut for
-	room</b>: with <b>Automatic</b>, also a chart that fills little of the square, where the room is worth the seam.
-	<b>As they are</b>: those of the texture coordinates that the mesh has keep their shape, and are only turned, scaled
-	by one factor and packed.
+	Leave charts whole, split those that overlap, or with <b>Automatic</b> also for better packing. <b>Only packed</b>: the
+	old islands keep their shape.
 + normalize_uv = true | Fit into the unit square | bool
-	Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of the metric.
+	Scale the UVs uniformly into [0,1] x [0,1]. Off: they keep the real size of the mesh.
 + sphere_layer = false | Sphere as new layer | bool
-	Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed surface of genus 0.
+	Add a layer with the mesh mapped conformally to the unit sphere. Needs one closed surface of genus 0.
 + join_vertices = Automatic | Join split vertices | Automatic; Never; Always
-	Vertices that lie on each other along edges are one for the map, as formats split them for normals and texture
-	coordinates; the mesh keeps them. <b>Automatic</b>: where faces share next to no vertices. Solids that touch and
-	double-sided faces stay apart.
-+ carry_texture = | Carry the texture over to | PNG image (*.png)
-	A PNG file that gets what the mesh shows now, its textures or else its colours, drawn for the new texture coordinates.
-	Empty: no texture.
-+ texture_size = 2048 | Size of that texture | int
-	Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old ones.
+	Treat vertices that coincide along edges as one, as in formats that split them. <b>Automatic</b>: only if faces share
+	almost no vertices.
++ carry_texture = | Transfer texture to | PNG image (*.png)
+	Bake the present textures, or else the colours, into this PNG file for the new UVs. Empty: no texture.
++ texture_size = 2048 | Transferred texture size (px) | int
+	Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of the old textures is kept.
 + report = | Report file | Page and its data (*.html);;Data alone (*.csv)
-	A report of the run: a page with diagrams and its data beside it (.html), or the data alone (.csv). Empty: no report.
+	Write a report: a page with diagrams and its data (.html), or the data alone (.csv). Empty: no report.
 + epsilon = 1e-8 | Epsilon (rad) | float
-	The flow stops when the curvature of every vertex is this close to its target, in radians, or at the floor that
-	rounding sets.
+	The solve stops when the curvature of every vertex is this close to its target, in radians, or rounding allows no
+	better.
 + time_limit = 0 | Time limit (seconds) | float
-	A run that takes longer ends with an error and leaves the mesh as it was. 0: no limit.
+	A run that takes longer ends with an error and leaves the mesh unchanged. 0: no limit.
 )";
 
 const char* const kHyperbolic = R"(
 target_curvature = Hyperbolic metric | Target curvature | Hyperbolic metric; Cones at selected vertices; From vertex quality
-	The curvature at the vertices, beyond the constant -1 of the triangles. <b>Hyperbolic metric</b>: none, for surfaces
-	of negative Euler characteristic.
+	The curvature at the vertices, in addition to the constant -1 of the triangles. <b>Hyperbolic metric</b>: none, for
+	surfaces of negative Euler characteristic.
 cone_angle = 180 | Cone angle (degrees) | float
-	The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 is no cone.
+	The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360: not a cone.
 output_triangulation
 colorize
 flat_layer = false | Disk as new layer | bool
 	Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
 universal_cover = 0 | Universal cover (rings) | int
-	Add a layer with the mesh in the Poincaré disk and this many rings of copies round it, which tile the disk. 0: no
+	Add a layer with the mesh in the Poincaré disk and this many rings of copies around it, which tile the disk. 0: no
 	layer.
 generator_axes = false | Axes of the generators | bool
 	Add a layer with the axes of the canonical generators of the Fuchsian group, as edges. On the surface they are closed
 	geodesics.
 canonical_polygon = false | Canonical polygon | bool
-	Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides are geodesics that the
-	canonical generators pair.
+	Add a layer with a fundamental polygon of 4 sides for each handle, as edges. The canonical generators pair its
+	sides, which are geodesics.
 + seams
 + free_boundary = false | Free boundary | bool
-	The circles of the boundary's vertices keep their radii, and the target holds inside only. Off: the target holds on
-	the boundary too.
+	The circles at boundary vertices keep their radii, and the target holds at interior vertices only. Off: the target
+	holds everywhere.
 + method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles
-	If a triangle breaks, <b>intrinsic flips</b> give the flow others, and <b>fixed triangles</b> end with an error; the
-	mesh is never changed.
+	What happens when a triangle degenerates during the solve: edges flip inside the solver (recommended), or the run
+	fails.
 + finish = Repair | Finish | None; Repair
-	Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
+	After the solve, repair flipped faces. Needs the method 'Intrinsic flips'.
 + join_vertices
 + carry_texture
 + texture_size

@@ -74,22 +74,22 @@ Results toResults(const ricci::Report& report)
 		{"max_curvature_error", report.maxCurvatureError, "Largest error of the curvature (rad)"},
 		{"residual_floor", report.residualFloor, "Least error that rounding allows (rad)"},
 		{"lengthened", report.lengthened, "Largest share added to an edge of faces without area"},
-		{"qc_mean", report.qcMean, "Distortion of angles, mean over faces (1: none)"},
-		{"qc_vertex_mean", report.qcVertexMean, "Distortion of angles, mean over vertices"},
-		{"qc_area_mean", report.qcAreaMean, "Distortion of angles, mean by area"},
-		{"qc_p99", report.qcP99, "Distortion of angles, 99th percentile"},
-		{"qc_max", report.qcMax, "Distortion of angles, largest"},
+		{"qc_mean", report.qcMean, "Angle distortion, mean over faces (1: none)"},
+		{"qc_vertex_mean", report.qcVertexMean, "Angle distortion, mean over vertices"},
+		{"qc_area_mean", report.qcAreaMean, "Angle distortion, mean by area"},
+		{"qc_p99", report.qcP99, "Angle distortion, 99th percentile"},
+		{"qc_max", report.qcMax, "Angle distortion, largest"},
 		{"area_distortion_mean",
 		 report.areaDistortionMean,
-		 "Distortion of areas, mean factor (1: none)"},
+		 "Area distortion, mean factor (1: none)"},
 		{"area_distortion_spread",
 		 report.areaDistortionSpread,
-		 "Distortion of areas, spread of the logarithm"},
+		 "Area distortion, spread of the logarithm"},
 		{"flipped_faces", report.flippedFaces, "Faces flipped or without area"},
-		{"flipped_by_rounding", report.flippedByRounding, "Further ones as floats"},
+		{"flipped_by_rounding", report.flippedByRounding, "Further faces flipped as floats"},
 		{"finish_moved", report.finishMoved, "Points moved by the repair"},
-		{"ended_early", report.endedEarly, "Searches ended by the bound on their work"},
-		{"flips", report.flips, "Flips of edges"},
+		{"ended_early", report.endedEarly, "Searches stopped at their work limit"},
+		{"flips", report.flips, "Edge flips"},
 		{"refinement_points", report.refinementPoints, "Points added by the refinement"},
 		{"edge_swaps", report.edgeSwaps, "Edges swapped"},
 		{"boundary_splits", report.boundarySplits, "Boundary edges split"},
@@ -98,8 +98,8 @@ Results toResults(const ricci::Report& report)
 		{"boundary_loops", report.boundaryLoops, "Boundary loops"},
 		{"components", report.components, "Components"},
 		{"cut_nonmanifold_edges", report.cutNonmanifoldEdges, "Non-manifold edges, cut open"},
-		{"split_vertices", report.splitVertices, "Vertices with several places"},
-		{"duplicate_faces", report.duplicateFaces, "Faces with the vertices of another"},
+		{"split_vertices", report.splitVertices, "Vertices with several places in the map"},
+		{"duplicate_faces", report.duplicateFaces, "Faces that duplicate another"},
 		{"one_sided_components", report.oneSidedComponents, "One-sided components, cut open"},
 		{"degenerate_faces", report.degenerateFaces, "Faces drawn as a segment or a point"},
 		{"cones", report.cones, "Cones"},
@@ -109,22 +109,22 @@ Results toResults(const ricci::Report& report)
 		{"seam_length", report.seamLength, "Length of the other seams"},
 		{"seam_length_relative", report.seamLengthRelative, "The same over the root of the area"},
 		{"charts", report.charts, "Charts"},
-		{"occupancy", report.occupancy, "Share of the square that is covered"},
+		{"occupancy", report.occupancy, "Packing efficiency (share of the square covered)"},
 		{"capped_holes", report.cappedHoles, "Holes capped"},
 		{"overlapping_charts", report.overlappingCharts, "Charts that overlap"},
 		{"overlapping_faces", report.overlappingFaces, "Faces that overlap"},
-		{"unequal_seams", report.unequalSeams, "Edges of seams with sides of unequal length"},
-		{"overlap_cuts", report.overlapCuts, "Edges cut against overlap"}};
+		{"unequal_seams", report.unequalSeams, "Seam edges whose two sides differ in length"},
+		{"overlap_cuts", report.overlapCuts, "Edges cut to separate charts"}};
 	const auto add = [&](const char* key, const std::optional<double>& value, const char* label) {
 		if (value)
 			results.push_back({key, *value, label});
 	};
 	add("stretch", report.stretch, "Stretch, mean by area (4: none)");
-	add("objective", report.objective, "Stretch and the price of the seams");
+	add("objective", report.objective, "Stretch plus the cost of the seams");
 	if (report.targetUsed)
 		results.push_back(
 			{"target_used", static_cast<int>(*report.targetUsed), "Target used, by its number"});
-	add("expected_spread", report.expectedSpread, "Spread of areas that was expected");
+	add("expected_spread", report.expectedSpread, "Expected spread of areas");
 	add("boundary_ratio_min", report.boundaryRatioMin, "Boundary edges: least change of length");
 	add("boundary_ratio_max", report.boundaryRatioMax, "Boundary edges: largest change of length");
 	add("torus_tau_re", report.torusTauRe, "Modulus of the torus, real part");
@@ -145,7 +145,7 @@ Results toResults(const ricci::Report& report)
 			{"left_out_components",
 			 report.leftOutComponents,
 			 "Components without a hyperbolic metric, beside the disk"});
-	add("relation_error", report.relationError, "How far the layout is from closing up");
+	add("relation_error", report.relationError, "Largest gap where the layout should close up");
 	return results;
 }
 
@@ -166,11 +166,11 @@ void addPlacedCones(const ricci::Parametrization& map, Results& results)
 void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 {
 	results.push_back(
-		{"sphere_qc_area_mean", sphere.qcAreaMean, "Sphere: distortion of angles, mean by area"});
+		{"sphere_qc_area_mean", sphere.qcAreaMean, "Sphere: angle distortion, mean by area"});
 	results.push_back(
 		{"sphere_area_distortion_mean",
 		 sphere.areaDistortionMean,
-		 "Sphere: distortion of areas, mean factor"});
+		 "Sphere: area distortion, mean factor"});
 	results.push_back({"sphere_flipped_faces", sphere.flippedFaces, "Sphere: faces flipped"});
 }
 
@@ -184,7 +184,7 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 		}
 	results.push_back({"generators", std::move(high), "Generators of the Fuchsian group"});
 	results.push_back(
-		{"generators_low", std::move(low), "The same, what a float cannot hold of them"});
+		{"generators_low", std::move(low), "The same, their digits beyond those of a double"});
 	results.push_back({"generators_error", group.relationError, "Error of their relation"});
 }
 
@@ -220,20 +220,21 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(
-			"The use of this map is doubtful: angles are distorted by " + ricci::numberText(qc, 3) +
+			"This map is probably not usable: angles are distorted by " + ricci::numberText(qc, 3) +
 			" on average. " +
 			(!is("method", static_cast<int>(ricci::Method::IntrinsicFlips))
-				 ? "The method 'Intrinsic flips' keeps them."
-				 : "The output 'Common refinement' keeps them, and so does a mesh without needles "
-				   "('Remeshing: Isotropic Explicit Remeshing')."));
+				 ? "The method 'Intrinsic flips' avoids this."
+				 : "The output 'Common refinement' avoids this, and so does remeshing that removes "
+				   "sliver triangles ('Remeshing: Isotropic Explicit Remeshing')."));
 	for (const auto& [key, value, label] : results)
 		if (key == "texture_scale" && std::get<double>(value) < kCoarser)
 			lines.push_back(
-				"The new image is coarser than the old ones, with " +
+				"The new texture is coarser than the old ones: it has " +
 				ricci::numberText(std::get<double>(value), 2) +
-				" of their texels for a unit of length. " +
-				(valueOf<int>(par, "texture_size") == 0 ? "It has the largest size that there is."
-														: "{texture_size} 0 keeps them all."));
+				" of their texels per unit of length. " +
+				(valueOf<int>(par, "texture_size") == 0
+					 ? "It already has the largest size."
+					 : "{texture_size} 0 keeps their resolution."));
 	if (filter == Hyperbolic)
 		return lines; // a hyperbolic metric has areas of its own
 	const bool isAutomatic = is("target_curvature", 0);
@@ -244,24 +245,24 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 		(is("target_curvature", static_cast<int>(ricci::TargetCurvature::Disk)) ||
 		 is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle))))
 		lines.push_back(
-			"The use of this map is doubtful: " + std::to_string(overlapping) +
-			" faces lie on each other. 'Disk' and 'Rectangle' give one chart, which is not cut: "
-			"'Automatic' cuts it.");
+			"This map is probably not usable: " + std::to_string(overlapping) +
+			" faces overlap. 'Disk' and 'Rectangle' give one chart, which is never cut: "
+			"'Automatic' cuts charts that overlap.");
 	if (areas > kDoubtfulAreas)
 		lines.push_back(
-			"The use of this map is doubtful: areas change by a factor of " +
+			"This map is probably not usable: areas change by a factor of " +
 			ricci::numberText(areas, 3) + " on average. " +
 			(isAutomatic || is("target_curvature", 6)
-				 ? "{cone_distortion} 0.25 asks for more cones, which keep areas."
-				 : "The target 'Automatic' places cones, which keep areas."));
+				 ? "{cone_distortion} 0.25 adds cones, which reduce this."
+				 : "The target 'Automatic' places cones, which reduce this."));
 	if (occupancy < kDoubtfulOccupancy)
 		lines.push_back(
-			"The use of this map is doubtful: its charts cover " +
+			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
-			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForRoom))
-				 ? "Seams that are chosen ({seams}) part it into charts that fit."
-				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' cuts it "
-				   "into charts that fit."));
+			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForPacking))
+				 ? "Chosen seams ({seams}) divide it into charts that pack better."
+				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' divides "
+				   "it into charts that pack better."));
 	return lines;
 }
 
@@ -272,9 +273,9 @@ double colourRampTop(const Results& results)
 
 std::string colourRamp(const Results& results)
 {
-	return "blue (1: angles kept) over cyan, green and yellow to red (" +
+	return "blue (1: no angle distortion) through cyan, green and yellow to red (" +
 		   ricci::numberText(colourRampTop(results), 3) +
-		   " and more: the 99th percentile over the faces)";
+		   " or more: the 99th percentile of the faces)";
 }
 
 std::vector<std::string> toLogLines(const Results& results)

@@ -111,7 +111,7 @@ RICCI_API void ricci_free(ricci_run* run);
  * value: of a choice its name, in any case, or its number; of a truth value true, false, 1 or 0; a number as in C
  *     or JSON, whatever the locale; of a file its path, which starts from the folder (ricci_set_text()) if it is
  *     relative.
- * Values that are no such text, and names that are no parameter, are RICCI_MISUSE. Whether a number can be used is
+ * Values that are not such a text, and names that are not parameters, are RICCI_MISUSE. Whether a number can be used is
  * only known to ricci_execute(). */
 RICCI_API int32_t ricci_set_parameter(ricci_run* run, const char* name, const char* value);
 
@@ -135,7 +135,7 @@ RICCI_API int32_t ricci_set_parameter(ricci_run* run, const char* name, const ch
  *                                   moved
  * Any type is converted; indices and truth values must be of BOOL or an integer type. RICCI_MISUSE if there is no
  * such name, type or shape. Lengths that do not fit to each other are RICCI_MISUSE of ricci_execute(); corners that
- * are no vertices are RICCI_REFUSED there. */
+ * are not vertices are RICCI_REFUSED there. */
 RICCI_API int32_t ricci_set_array(ricci_run* run, const char* name, const ricci_array* array);
 
 /* Sets a text about the mesh; it is copied.

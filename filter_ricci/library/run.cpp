@@ -19,7 +19,7 @@ namespace filter_ricci {
 
 namespace {
 
-/// Beyond these, products of lengths are no memory of any machine.
+/// Beyond these, products of lengths exceed the memory of any machine.
 constexpr int64_t kMaxLength = std::numeric_limits<int32_t>::max();
 constexpr double kMaxBytes = 1e15;
 

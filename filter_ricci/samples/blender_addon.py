@@ -76,13 +76,13 @@ class Selection:
 
 
 class UnwrapRicciFlow(bpy.types.Operator):
-    """Unwrap the selected faces with their angles kept, into charts that do not overlap"""
+    """Unwrap the selected faces into charts that do not overlap, with little angle distortion"""
     bl_idname = "uv.unwrap_ricci_flow"
     bl_label = "Unwrap (Ricci flow)"
     bl_options = {"REGISTER", "UNDO"}
 
     margin: bpy.props.FloatProperty(
-        name="Margin", description="Room round each chart, as a share of the side of the square",
+        name="Margin", description="Padding around each chart, as a fraction of the texture size",
         default=0.004, min=0.0, max=0.1, precision=4)
     seam_hiding: bpy.props.FloatProperty(
         name="Hide seams", description="How much rather seams that are added run through hollows",

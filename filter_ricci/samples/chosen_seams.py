@@ -34,7 +34,7 @@ def main(path, out, angle=None):
         result = flatten(mesh, **chosen)
     except Refused as refusal:
         sys.exit(f"{path}: {refusal}")
-    print(f"{result.chosen_seam_edges} edges as chosen, {result.seam_edges} more, {result.charts} charts")
+    print(f"{result.chosen_seam_edges} chosen edges, {result.seam_edges} more, {result.charts} charts")
     result.save(out)
 
 

@@ -25,4 +25,4 @@ except Refused as refusal:
 result.save(out)
 print(image)
 if "texture_scale" in result.results:  # not where there were colours only
-    print(f"{result.texture_scale:.3g} times the texels for a unit of length")
+    print(f"{result.texture_scale:.3g} times the texels per unit of length")

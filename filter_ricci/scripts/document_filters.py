@@ -66,8 +66,7 @@ def item(parameter, said):
         values = ""
     if words(parameter) in said:
         return f"- **`{name} : {kind}`**: as in the Euclidean filter."
-    return (f"- **`{name} : {kind}`**<br>{values}\n"
-            f"  *{parameter['label']}*: {markdown(parameter['tooltip'])}")
+    return f"- **`{name} : {kind}`**<br>{values} *{parameter['label']}*: {markdown(parameter['tooltip'])}"
 
 
 def page(description, said=()):
@@ -107,8 +106,10 @@ def results(text):
             kinds = cells[1].split(", ")
             meaning = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", cells[2].replace("\\|", "|"))
             meaning = re.sub(r"[`*]", "", meaning)
+            parts = meaning.split("; ")  # one for each key, or all for each
             for i, name in enumerate(names):
-                keys[name] = (kinds[i % len(kinds)], meaning)
+                keys[name] = (kinds[i % len(kinds)],
+                              parts[i] if len(parts) == len(names) else meaning)
         found.append(keys)
     return found
 

@@ -36,19 +36,19 @@ TEST(InParallel, EveryElementIsInOnePart)
 			}
 }
 
-/// Calls \p heard at every update.
+/// Calls \p update at every update.
 class Caller : public Progress
 {
 public:
-	explicit Caller(std::function<void(double)> heard) : m_heard(std::move(heard)) {}
+	explicit Caller(std::function<void(double)> update) : m_update(std::move(update)) {}
 	bool update(double fraction, const std::string&) override
 	{
-		m_heard(fraction);
+		m_update(fraction);
 		return true;
 	}
 
 private:
-	std::function<void(double)> m_heard;
+	std::function<void(double)> m_update;
 };
 
 TEST(TasksInParallel, EachIsDoneOnceAndTheCallingThreadAloneIsHeard)
@@ -56,10 +56,10 @@ TEST(TasksInParallel, EachIsDoneOnceAndTheCallingThreadAloneIsHeard)
 	for (const int count : {0, 1, 3, 500})
 		for (const int threads : {0, 1, 2, 5}) {
 			const auto caller = std::this_thread::get_id();
-			int heard = 0;
+			int updates = 0;
 			Caller listener([&](double) {
 				EXPECT_EQ(std::this_thread::get_id(), caller);
-				++heard;
+				++updates;
 			});
 			const Task task(listener);
 			std::vector<long> sums(static_cast<std::size_t>(count), 0);
@@ -69,7 +69,7 @@ TEST(TasksInParallel, EachIsDoneOnceAndTheCallingThreadAloneIsHeard)
 					sums[static_cast<std::size_t>(i)] += k;
 				}
 			});
-			EXPECT_GE(heard, 1);
+			EXPECT_GE(updates, 1);
 			for (int i = 0; i < count; ++i)
 				EXPECT_EQ(sums[static_cast<std::size_t>(i)], long(i) * (i + 1) / 2);
 		}
@@ -88,10 +88,10 @@ TEST(TasksInParallel, WhatATaskOrTheListenerThrowsEndsAll)
 		EXPECT_THROW(tasksInParallel(200, threads, work), std::runtime_error);
 		EXPECT_EQ(done[20], 0);
 		EXPECT_LT(std::count(done.begin(), done.end(), 1), 200);
-		// No task ends by itself: the others hear that the listener has thrown.
-		int heard = 0;
+		// No task ends by itself: the others notice that the listener has thrown.
+		int updates = 0;
 		Caller listener([&](double) {
-			if (++heard == 100)
+			if (++updates == 100)
 				throw std::logic_error("the listener");
 		});
 		const Task task(listener);
@@ -148,8 +148,8 @@ TEST(Besides, BothAreDoneAndSeenAfterwards)
 	for (const int threads : {1, 2})
 		for (int run = 0; run < 50; ++run) {
 			std::vector<int> both(2000, 0);
-			int heard = 0;
-			Caller listener([&](double) { ++heard; });
+			int updates = 0;
+			Caller listener([&](double) { ++updates; });
 			const Task task(listener);
 			besides(
 				threads,
@@ -162,7 +162,7 @@ TEST(Besides, BothAreDoneAndSeenAfterwards)
 				});
 			for (std::size_t i = 0; i < both.size(); ++i)
 				EXPECT_EQ(both[i], static_cast<int>(i));
-			EXPECT_GE(heard, threads == 1 ? 1000 : 0);
+			EXPECT_GE(updates, threads == 1 ? 1000 : 0);
 		}
 }
 

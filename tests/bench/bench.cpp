@@ -2,7 +2,7 @@
 // CPU time of each stage for one mesh, and the time of the flow as a multiple of one analysis,
 // factorisation and solution of the same matrix: a number that does not depend on the machine's
 // speed. One process measures one mesh, so that the peak of its memory means something; it is that of
-// the whole way from mesh to plane, which runs first.
+// the complete run from mesh to plane, which is first.
 #include "support/random_surface.h"
 #include "support/run_flow.h"
 #include "support/shapes.h"
@@ -93,7 +93,7 @@ double wallSeconds()
 	return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Columns of the whole way, in its order.
+/// Columns of the complete run, in its order.
 const std::vector<std::string> kStages = {
 	"cones", "flows", "cut", "overlay", "finish", "charts", "pack", "write", "rest"};
 
@@ -444,7 +444,7 @@ int main(int argc, char** argv)
 {
 	Options options;
 	Background background = Background::EuclideanPlane;
-	bool flowOnly = false; // not the whole way from mesh to plane, which needs more memory
+	bool flowOnly = false; // not the complete run from mesh to plane, which needs more memory
 	std::string path;
 	std::string method = "intrinsic_flips";
 	for (int i = 1; i < argc; ++i) {

@@ -32,7 +32,7 @@ def rows(path):
 
 
 def points(table, column):
-    # With --flow-only the peak is not that of the whole way.
+    # With --flow-only the peak is not that of a complete run.
     rows = [r for r in table if column != "peak_mb" or float(r["whole_cpu_s"]) > 0]
     pairs = [(float(row["faces"]), float(row[column])) for row in rows]
     return sorted(p for p in pairs if p[1] > 0)

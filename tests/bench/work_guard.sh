@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bash work_guard.sh RICCI_BENCH: fails if the flow does more work than it should. Counts, no
 # seconds: Newton steps, factorisations, solutions and floating-point operations of the linear
-# solver; and, by callgrind, the instructions of the flow and of the whole way over those of one analysis,
+# solver; and, by callgrind, the instructions of the flow and of a complete run over those of one analysis,
 # factorisation and solution of the flow's last matrix. The bounds are a tenth to a third above what they were when set;
 # one is raised only together with the reason why the work is worth it.
 set -euo pipefail
@@ -62,7 +62,7 @@ fi
 flow=$(instructions '*startAndFlow*' --flow-only --cone-distortion=1 generated:6000)
 factor=$(instructions '*solveOnce*' --flow-only --cone-distortion=1 generated:6000)
 no_more "instructions, flow over one factorisation" "$(quotient "$flow" "$factor")" 2.6
-# The whole way with cones, seams, charts and finish, on two sizes. Not one over the other: less work on the
+# A complete run with cones, seams, charts and finish, on two sizes. Not one over the other: less work on the
 # small one would count as more on the large one.
 for bound in 6000:10 24000:7.3; do
 	mesh=slab:${bound%:*}

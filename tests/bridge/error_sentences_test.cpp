@@ -259,8 +259,8 @@ TEST(Sentences, AreTheseWords)
 		 "{universal_cover}: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
 		 "simplify the mesh."},
 		{sentence(InvalidOption(InvalidOption::WithoutFlips)),
-		 "The output 'Common refinement' and the holes 'Capped' belong to the method 'Intrinsic "
-		 "flips': choose this, or 'Keep the mesh' and 'Boundaries'."},
+		 "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic flips': "
+		 "choose it, or 'Keep the mesh' and 'Boundaries'."},
 		{sentence(InvalidOption(InvalidOption::HyperbolicMethod)),
 		 "The hyperbolic flow has no such method: choose 'Intrinsic flips' or 'Fixed triangles'."},
 		{sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, surface(1, 0))),
@@ -282,11 +282,11 @@ TEST(Sentences, AreTheseWords)
 		{sentence(InvalidOption(InvalidOption::TooFewVertices, 40.0, 0.0, 12)),
 		 "The surface has 12 interior vertices, too few for the wanted cones: {cone_count} is 40."},
 		{sentence(InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, 2)),
-		 "The map to the sphere takes one closed surface of genus 0, but the mesh has 2 "
+		 "The map to the sphere needs one closed surface of genus 0, but the mesh has 2 "
 		 "components: separate them first."},
 		{sentence(
 			 InvalidOption(InvalidOption::NotASphere, TargetCurvature::Automatic, surface(0, 1))),
-		 "The map to the sphere takes a closed surface of genus 0, but the surface is a disk."},
+		 "The map to the sphere needs a closed surface of genus 0, but the surface is a disk."},
 		{sentence(
 			 InadmissibleCurvature(InadmissibleCurvature::Flat, 0.0, 4.0 * kPi, 0, surface(0, 0))),
 		 "'Flat everywhere' needs total curvature 2 pi chi = 0, but the surface is a closed "
@@ -328,8 +328,8 @@ TEST(Sentences, AreTheseWords)
 		 "1 triangle breaks the triangle inequality at the end of the flow: choose the method "
 		 "'Intrinsic flips', or remesh the worst triangles."},
 		{sentence(NotConverged(NotConverged::FlatTriangles, 2)),
-		 "2 triangles are flat at the end of the flow: the curvature asked for is the limit of "
-		 "what these triangles reach. Choose the method 'Intrinsic flips', or another "
+		 "2 triangles are flat at the end of the flow: the target curvature is the limit of what "
+		 "these triangles can reach. Choose the method 'Intrinsic flips', or another "
 		 "{target_curvature}."},
 		{sentence(NotConverged(NotConverged::SplitsUsedUp, 9)),
 		 "Triangles on the boundary kept breaking after 9 boundary edges were split: remesh the "

@@ -52,7 +52,7 @@ TEST(Parameters, HaveTheDefaultsOfTheAlgorithm)
 	EXPECT_EQ(disk.coverRings, 0);
 }
 
-/// A parameter of both filters is one, but for what few runs of one of them need.
+/// A parameter of both filters is one, except for what few runs of one of them need.
 TEST(Parameters, AreReadFromTheirTable)
 {
 	for (const int filter : {Euclidean, Hyperbolic})

@@ -113,7 +113,7 @@ TEST(ChartDivision, OfAScrewSurfaceOnlyMovesItsParts)
 	}
 }
 
-/// A plane is its own map. Rounding is no overlap, a thousandth of its size is one.
+/// A plane is its own map. Rounding is not an overlap, a thousandth of its size is one.
 TEST(ChartDivision, TouchingIsNoOverlap)
 {
 	const auto overlaps = [](const SurfaceMesh& mesh) {

@@ -80,7 +80,7 @@ TEST(KeepApart, SeesAChartInsideAnother)
 TEST(KeepApart, EndsAtTheFirstPair)
 {
 	Listener ticks;
-	EXPECT_FALSE(heard(ticks, [&] {
+	EXPECT_FALSE(withListener(ticks, [&] {
 		return keepApart({circle({0.0, 0.0}, 1.0, 20000), circle({2.5, 0.0}, 1.5, 30000)}, 0.54);
 	}));
 	EXPECT_EQ(ticks.calls(), 1);

@@ -20,8 +20,8 @@
 namespace ricci::testing {
 namespace {
 
-/// A cut for room brings this power of what its seam costs at least.
-constexpr double kRoomPrice = 2.3;
+/// A cut for packing brings this power of what its seam costs at least.
+constexpr double kPackingPrice = 2.3;
 
 /// Pieces over the plane as one mesh, one above the other.
 SurfaceMesh together(const std::vector<SurfaceMesh>& pieces)
@@ -283,19 +283,19 @@ TEST(Packing, RefusesMarginsThatLeaveNoRoomAndWhatFloatsCannotHold)
 	}
 }
 
-Parametrization cutForRoom(const SurfaceMesh& mesh, double margin)
+Parametrization cutForPacking(const SurfaceMesh& mesh, double margin)
 {
 	Options options = packing(margin);
-	options.charts = Charts::CutForRoom;
+	options.charts = Charts::CutForPacking;
 	return parametrizeEuclidean(mesh, {}, options);
 }
 
 /// A strip of 20 by 2 is cut across, by edges of length 1; what fills its square is left whole, and what the margin
 /// has no room for in two.
-TEST(Packing, CutsChartsForRoomWhereThatWins)
+TEST(Packing, CutsChartsForPackingWhereThatWins)
 {
 	const SurfaceMesh strip = rectangle(20, 2, 20, 2);
-	const Parametrization map = cutForRoom(strip, 0.01);
+	const Parametrization map = cutForPacking(strip, 0.01);
 	const std::size_t cuts = map.charts.size() - 1;
 	ASSERT_GE(cuts, 1u);
 	expectPacked(strip, map, cuts + 1);
@@ -306,7 +306,7 @@ TEST(Packing, CutsChartsForRoomWhereThatWins)
 	const Report whole = parametrizeEuclidean(strip, {}, packing(0.01)).report;
 	EXPECT_GT( // each cut is worth its seam
 		map.report.occupancy,
-		whole.occupancy * std::pow(1.0 + map.report.seamLength / std::sqrt(40.0), kRoomPrice));
+		whole.occupancy * std::pow(1.0 + map.report.seamLength / std::sqrt(40.0), kPackingPrice));
 	for (const auto& [mesh, margin] :
 		 {std::pair(rectangle(8, 8, 8, 8), 0.0),
 		  std::pair(rectangle(16, 10, 16, 10), 0.0),
@@ -317,7 +317,7 @@ TEST(Packing, CutsChartsForRoomWhereThatWins)
 				   rectangle(12, 12, 12, 12),
 				   rectangle(12, 12, 12, 12)}),
 			  0.25)}) {
-		const Parametrization left = cutForRoom(mesh, margin);
+		const Parametrization left = cutForPacking(mesh, margin);
 		EXPECT_EQ(left.report.overlapCuts, 0);
 		EXPECT_EQ(left.report.charts, left.report.components);
 		EXPECT_EQ(

@@ -87,7 +87,7 @@ TEST(AreaChange, IsTheMeanOverTheFaces)
 		const AreaChange change = areaChange(surface, u);
 		expectSame(change, byFaces(mesh, u), 1e-10);
 		EXPECT_NEAR(areaChange(surface, -2.0 * u).spread, 2 * change.spread, 1e-11);
-		for (const double c : {5.0, -400.0, 700.0}) { // exp(2 c) is no double for the last
+		for (const double c : {5.0, -400.0, 700.0}) { // exp(2 c) is not a double for the last
 			expectSame(areaChange(surface, (u.array() + c).matrix()), change, 1e-11);
 			expectSame(areaChange(surface, VertexVector::Constant(u.size(), c)), {}, 1e-6);
 		}

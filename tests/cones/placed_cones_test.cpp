@@ -79,7 +79,7 @@ TEST(PlacedCones, AreAdmissibleOnClosedSurfacesOfEveryGenus)
 			}
 }
 
-/// A box is flat but for its eight corners of pi / 2: no area has to change. More cones, or none but for a
+/// A box is flat except for its eight corners of pi / 2: no area has to change. More cones, or none except for a
 /// distortion, would carry nothing.
 TEST(PlacedCones, AreTheCornersOfABox)
 {
@@ -202,7 +202,7 @@ struct Said
 	Said(const SurfaceMesh& mesh, const Options& options)
 	{
 		Listener listener(1, "Solving for the metric");
-		EXPECT_THROW(heard(listener, [&] { flattened(mesh, options); }), Cancelled);
+		EXPECT_THROW(withListener(listener, [&] { flattened(mesh, options); }), Cancelled);
 		for (const std::string& line : listener.lines) {
 			if (line.find(" cones placed: ") == std::string::npos)
 				continue;

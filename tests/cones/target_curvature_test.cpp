@@ -327,7 +327,7 @@ TEST(Target, SelectedConesShareTheTotalCurvature)
 	EXPECT_NEAR(sum(triangle.targetCurvature), 2 * kPi, 1e-12);
 }
 
-/// What rounding makes of values, of floats here, is spread in proportion to |K|; and is no cone.
+/// What rounding makes of values, of floats here, is spread in proportion to |K|; and is not a cone.
 TEST(Target, PrescribedValuesMayBeRounded)
 {
 	Random random(91);

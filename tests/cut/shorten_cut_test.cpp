@@ -166,13 +166,14 @@ TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 	const EdgeArray<char> clumsy = clumsyCut(t, marked);
 	Listener ticks;
 	EdgeArray<char> whole = clumsy;
-	heard(ticks, [&] { return shortenCut(t, p.lengths, marked, whole); });
+	withListener(ticks, [&] { return shortenCut(t, p.lengths, marked, whole); });
 	EXPECT_GE(ticks.calls(), 3);
 	double before = lengthOf(clumsy, p.lengths);
 	for (int n = 1; n <= ticks.calls(); ++n) {
 		EdgeArray<char> isCut = clumsy;
 		Listener impatient(n);
-		EXPECT_THROW(heard(impatient, [&] { shortenCut(t, p.lengths, marked, isCut); }), Cancelled);
+		EXPECT_THROW(
+			withListener(impatient, [&] { shortenCut(t, p.lengths, marked, isCut); }), Cancelled);
 		expectDiskThroughMarks(t, isCut, marked);
 		const double now = lengthOf(isCut, p.lengths);
 		EXPECT_LE(now, before * (1 + 1e-12));

@@ -226,7 +226,7 @@ TEST(CurvatureMap, FollowsTheLawOfCosinesAndItsDerivative)
 }
 
 /// Far from the start, where flips have changed the triangulation. Where every edge is weighted Delaunay no
-/// triangle breaks and all weights are non-negative; the Hessian is positive definite, in the plane but for
+/// triangle breaks and all weights are non-negative; the Hessian is positive definite, in the plane except for
 /// constants.
 template<class Geometry>
 void expectConvexityAfterFlips(double largest)
@@ -280,7 +280,7 @@ TEST(CurvatureMap, EnergyIsStrictlyConvexWithFlips)
 TEST(CurvatureMap, TheLowPartOfPiIsNotLost)
 {
 	// Left out or taken back, what a double of pi lacks would add up to 1e-12 and more over so many
-	// vertices; the rounding of their angles cancels in the sum but for its root.
+	// vertices; the rounding of their angles cancels in the sum except for its root.
 	Random random(47);
 	const auto sum = [](const SurfaceMesh& mesh) {
 		const Packed packed(mesh);

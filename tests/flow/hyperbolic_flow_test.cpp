@@ -226,7 +226,7 @@ TEST(HyperbolicFlow, ACylinderWithFreeBoundaryIsAHyperbolicCollar)
 		profile, 4 * kPi * k * std::tan(0.5 * k * height), 4 * kPi / std::sqrt(height));
 }
 
-/// On a torus whose curvatures leave the area \p s the metric is the Euclidean flow's but for the
+/// On a torus whose curvatures leave the area \p s the metric is the Euclidean flow's except for the
 /// scale, up to the order of s.
 TEST(HyperbolicFlow, BothBackgroundsAgreeWhereTheAreaVanishes)
 {

@@ -24,7 +24,7 @@ inline Point3 randomPoint(ByteSource& bytes)
 	return {x, y, z};
 }
 
-/// A mesh that is no oriented manifold: pinched, with sheets that meet at an edge, one-sided, with
+/// A mesh that is not an oriented manifold: pinched, with sheets that meet at an edge, one-sided, with
 /// faces twice, with faces or components without area, or several of these.
 /// \param base an ordinary mesh to begin with; some kinds do without
 SurfaceMesh anyTriangles(const SurfaceMesh& base, ByteSource& bytes);

@@ -36,7 +36,7 @@ using Input = std::vector<std::uint8_t>;
 
 constexpr const char* kDefectFile = "defect-input";
 
-/// Seconds of CPU time after which an execution counts as hanging, but for --patience; sanitizers take
+/// Seconds of CPU time after which an execution counts as hanging, except for --patience; sanitizers take
 /// their time.
 #if defined(__SANITIZE_ADDRESS__)
 int patience = 300;

@@ -228,7 +228,7 @@ bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report
 		   isEven(reading.mesh, 1e3) && report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
 }
 
-/// What no filter may change: vertices and faces with their flags, but for texture coordinates.
+/// What no filter may change: vertices and faces with their flags, except for texture coordinates.
 template<class Mesh>
 std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
 {
@@ -463,7 +463,7 @@ Execution run(const HostileMesh& hostile)
 	typename Flow::Result result;
 	SphereMap sphere;
 	try {
-		Task task(watch); // what is looked at afterwards is no part of it
+		Task task(watch); // what is looked at afterwards is not a part of it
 		task.setMemoryLimit(hostile.memoryLimit);
 		if (hostile.sphere)
 			sphere = Flow::ComputeSphere(m, params);

@@ -531,7 +531,7 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
 	if (bytes.oneIn(8))
-		options.charts = Charts::CutForRoom;
+		options.charts = Charts::CutForPacking;
 	if (bytes.oneIn(8)) {
 		seamEvery = 1 + bytes.below(50);
 		seamSeed = bytes.byte();
@@ -554,7 +554,7 @@ void HostileMesh::mend()
 		for (double& x : p)
 			if (!std::isfinite(x))
 				x = 0.0;
-	// Each directed side once, no face twice: an oriented surface but for its vertices, which take a
+	// Each directed side once, no face twice: an oriented surface except for its vertices, which take a
 	// copy for every fan.
 	std::map<std::pair<int, int>, int> cornerAt;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {

@@ -234,7 +234,7 @@ CUTS = ("cut_nonmanifold_edges", "split_vertices", "duplicate_faces", "one_sided
 
 
 def any_triangles():
-    """Meshes that are no oriented manifolds: name, mesh, results that are not 0 of CUTS, components."""
+    """Meshes that are not oriented manifolds: name, mesh, results that are not 0 of CUTS, components."""
     band, sheet = moebius(), plane(4)
     return (("fin", with_fin(torus()), {"cut_nonmanifold_edges": 1, "split_vertices": 2}, 2),
             ("bow tie", bow_tie(), {"split_vertices": 1}, 2),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much of a texture is lost when it is drawn anew: redraw_texture.py PLUGIN FACES MESH...
+"""How much of a texture is lost when it is baked again: redraw_texture.py PLUGIN FACES MESH...
 
 Each mesh gets an atlas of single triangles with a picture of smooth waves that is projected on it, in the
 current folder. The filter's `carry_texture` and MeshLab's 'Texture Map Defragmentation' make one with fewer

@@ -273,12 +273,12 @@ class Batch(unittest.TestCase):
         self.assertEqual(run(path, out, "--quiet"), ("", ""))
         printed, errors = run(path, out, "--verbose", "--target-curvature", "Disk")
         self.assertRegex(printed, said + "(?s:.*)charts = 1\n")
-        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        self.assertRegex(errors, "^hill.ply: This map is probably not usable: .*\n$")
         _, errors = run(self.meshes, self.out, "--target-curvature", "Disk")
-        self.assertRegex(errors, "^hill.ply: The use of this map is doubtful: .*\n$")
+        self.assertRegex(errors, "^hill.ply: This map is probably not usable: .*\n$")
         with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
             row, = csv.DictReader(source)
-        self.assertIn("doubtful", row["messages"])
+        self.assertIn("not usable", row["messages"])
 
     @unittest.skipIf(pymeshlab is None, "PyMeshLab, which reads most of them, is not installed")
     def test_every_format_and_what_is_skipped(self):
@@ -302,7 +302,7 @@ class Batch(unittest.TestCase):
         self.assertIn("0 to run", self.batch()[1])
 
     def test_out_is_in(self):
-        """Results are no meshes, and no mesh is replaced by a result."""
+        """Results are not meshes, and no mesh is replaced by a result."""
         self.out = self.meshes
         self.write("hill.ply", meshes.hill())
         self.write("more/torus.ply", meshes.torus())
@@ -327,7 +327,7 @@ class Batch(unittest.TestCase):
         path = os.path.join(self.meshes, "hill.ply")
         for mesh, out, options, code, pattern in (
                 ("nothing", "out", (), 2, "There is no file or folder"),
-                (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is no whole number"),
+                (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is not a whole number"),
                 (self.meshes, path, (), 1, "hill.ply: File exists"),
                 (path, "out.stl", (), 2, "OUT must end in .obj or .ply"),
                 (path, os.path.join(path, "out.ply"), (), 1, "hill.ply"),

@@ -167,15 +167,15 @@ class Unwrap(unittest.TestCase):
 
     def test_progress(self):
         self.edit(lambda b: bmesh.ops.create_monkey(b))
-        heard, flatten = [], ricciflow.flatten
+        updates, flatten = [], ricciflow.flatten
 
         def told(*mesh, progress, **options):
-            return flatten(*mesh, progress=lambda done, what: heard.append(done) or progress(done, what),
+            return flatten(*mesh, progress=lambda done, what: updates.append(done) or progress(done, what),
                            **options)
 
         with mock.patch.object(ricciflow, "flatten", told):
             self.unwrap()
-        self.assertEqual(heard[-1], 1.0)
+        self.assertEqual(updates[-1], 1.0)
 
     def refused(self, pattern):
         with self.assertRaisesRegex(RuntimeError, pattern):

@@ -181,9 +181,9 @@ class Obj(Folder):
             mesh.pictures[0].read()
 
     def test_a_wrong_line_is_named(self):
-        for line, what in ((b"f 1 2 x", "line 3 is no face: f 1 2 x"),
-                           (b"v 1 2", "line 3 is no vertex: v 1 2"),
-                           (b"f 1/2/3/4 2 1", "line 3 is no face"), (b"v 1 2 3z", "line 3 is no vertex")):
+        for line, what in ((b"f 1 2 x", "line 3 is not a valid face: f 1 2 x"),
+                           (b"v 1 2", "line 3 is not a valid vertex: v 1 2"),
+                           (b"f 1/2/3/4 2 1", "line 3 is not a valid face"), (b"v 1 2 3z", "line 3 is not a valid vertex")):
             path = self.file("wrong.obj", b"v 0 0 0\nv 1 0 0\n" + line + b"\nf 1 2 1\n")
             with self.assertRaisesRegex(files.FileError, what):
                 files.read(path)
@@ -857,7 +857,7 @@ class Pictures(Folder):
 
     def test_without_pillow_it_is_named(self):
         with mock.patch.dict(sys.modules, {"PIL": None}):
-            with self.assertRaisesRegex(files.FileError, r"picture scan.jpg is no PNG.*pip install Pillow"):
+            with self.assertRaisesRegex(files.FileError, r"picture scan.jpg is not a PNG.*pip install Pillow"):
                 files.read_picture(b"\xff\xd8\xff\xe0 and so on", "scan.jpg")
             with self.assertRaisesRegex(files.FileError, "pip install Pillow"):
                 files.write_picture(self.folder / "a.jpg", samples.noise(2, 2))

@@ -183,7 +183,7 @@ class Results(unittest.TestCase):
 
 
 class AnyTriangles(unittest.TestCase):
-    """Meshes that are no oriented manifolds are cut open for the map, and stay as they are."""
+    """Meshes that are not oriented manifolds are cut open for the map, and stay as they are."""
 
     def test_every_face_is_mapped(self):
         for name, mesh, counts, components in meshes.any_triangles():

@@ -204,7 +204,7 @@ class Results(unittest.TestCase):
         returned = self.check(documents, holes="Capped", cone_distortion=10)
         self.assertEqual((returned["boundary_loops"], returned["capped_holes"]), (2, 1))
         self.assertEqual((returned["seam_edges"], returned["charts"]), (0, 1))
-        open_ring = self.check(mesh_set(meshes.annulus())) # its hole is no short one
+        open_ring = self.check(mesh_set(meshes.annulus())) # its hole is not a short one
         self.assertEqual(open_ring["capped_holes"], 0)
         self.assertGreater(open_ring["seam_edges"], 0)
 
@@ -620,7 +620,7 @@ class Hyperbolic(unittest.TestCase):
         self.assertEqual(polygon.edge_number(), 8 * 200)  # 4 sides for each handle
         points = 2 * polygon.vertex_matrix()[:, :2] - 1
         self.assertLess(numpy.hypot(points[:, 0], points[:, 1]).max(), 1.0)
-        # Its sides are chained: but for the ends of sides, every point is the end of two edges.
+        # Its sides are chained: except for the ends of sides, every point is the end of two edges.
         ends = numpy.bincount(polygon.edge_matrix().ravel(), minlength=len(points))
         self.assertEqual(set(ends) - {1, 2}, set())
         self.assertLessEqual(numpy.count_nonzero(ends == 1), 2 * 8)
@@ -684,7 +684,7 @@ class Hyperbolic(unittest.TestCase):
 
 
 class AnyTriangles(unittest.TestCase):
-    """Meshes that are no oriented manifolds are cut open for the map, and stay as they are."""
+    """Meshes that are not oriented manifolds are cut open for the map, and stay as they are."""
 
     def check(self, mesh, counts, components, **values):
         documents = mesh_set(mesh)
@@ -916,14 +916,14 @@ class BadInput(unittest.TestCase):
         for values in ({"target_curvature": 7}, {"target_curvature": -1}, {"method": "Nonsense"}):
             documents = mesh_set(meshes.torus())
             before = state(documents.current_mesh())
-            with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)|is no choice"):
+            with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)|is not a choice"):
                 run(documents, **values)
             self.assertTrue(same(before, state(documents.current_mesh())))
 
     @unittest.skipIf(BY_ARRAYS, "the sentences do not go through the host")
     def test_sentences_survive_the_host(self):
         """The host turns messages into the local 8-bit encoding, which may be plain ASCII."""
-        # Below a folder whose name such a locale cannot express, Qt searches for its own folder without end.
+        # Below a folder whose name such a locale cannot express, Qt never stops searching for its own folder.
         environment = os.path.realpath(sys.prefix)
         if not environment.isascii():
             self.skipTest("PyMeshLab lies in a folder whose name is not ASCII: Qt hangs there in an ASCII locale")

@@ -120,8 +120,9 @@ class Readme(unittest.TestCase):
     FACADE = "vcg_ext/vcg/complex/algorithms/parametrization"
 
     def test_files_and_functions(self):
-        """The page of the core names files that are there, and functions that they hold."""
-        for line in read("vcg_ext", "ricci", "README.md").splitlines():
+        """The pages of the core name files that are there, and functions that they hold."""
+        pages = read("vcg_ext", "ricci", "README.md") + read("vcg_ext", "ricci", "PAPER.md")
+        for line in pages.splitlines():
             for name, functions in re.findall(r"`([\w/]+\.(?:cpp|h|cmake))`((?: \(`.*?`\))?)", line):
                 places = [p for p in ("", "vcg_ext/ricci", "vcg_ext", self.FACADE)
                           if os.path.isfile(os.path.join(common.REPOSITORY, p, name))]
@@ -158,8 +159,7 @@ class Readme(unittest.TestCase):
         """One version everywhere."""
         version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
         for name, pattern in (
-                ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("README.md", r"version = {(.*?)}"),
-                ("CITATION.cff", r"^version: (.*)"),
+                ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("CITATION.cff", r"^version: (.*)"),
                 (os.path.join("vcg_ext", "ricci", "CMakeLists.txt"), r"^project\(ricci VERSION ([\d.]+)")):
             self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
         for name in ("README.md", os.path.join("filter_ricci", "README.md")):

@@ -153,7 +153,7 @@ class Texture(textures.TexturedTorus):
         self.check(documents, textures.read_png(self.path("new.png")))
 
     def test_texture_scale(self):
-        """Twice the texels for a unit of length, from the same map."""
+        """Twice the texels per unit of length, from the same map."""
         first = self.carry(self.textured(), texture_size=512)["texture_scale"]
         second = self.carry(self.textured(), texture_size=1024, chart_margin=24 / 512)
         self.assertAlmostEqual(second["texture_scale"] / first, 2.0, delta=1e-3)

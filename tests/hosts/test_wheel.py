@@ -247,12 +247,12 @@ def roads():
 
 class Progress(unittest.TestCase):
     def test_told(self):
-        heard = []
-        flatten(*arrays(meshes.torus()), progress=lambda *told: heard.append(told))
-        self.assertEqual(heard[-1], (1.0, "Done"))
-        for fraction, what in heard:
+        updates = []
+        flatten(*arrays(meshes.torus()), progress=lambda *told: updates.append(told))
+        self.assertEqual(updates[-1], (1.0, "Done"))
+        for fraction, what in updates:
             self.assertTrue(0.0 <= fraction <= 1.0 and what, (fraction, what))
-        self.assertEqual([f for f, _ in heard], sorted(f for f, _ in heard))
+        self.assertEqual([f for f, _ in updates], sorted(f for f, _ in updates))
 
     def test_bar(self):
         """On standard error: tqdm's, or a line without it."""
@@ -492,10 +492,10 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 flatten(vertices, faces, **wrong)
 
-    def test_doubts_are_heard(self):
+    def test_doubts_are_warnings(self):
         """As warnings, and with the result."""
         mesh = arrays(meshes.swirled(meshes.double_torus(), 4.0, 1.5))
-        with self.assertWarnsRegex(ricciflow.RicciWarning, "use of this map is doubtful") as caught:
+        with self.assertWarnsRegex(ricciflow.RicciWarning, "This map is probably not usable") as caught:
             result = flatten(*mesh, target_curvature="Placed cones", cone_count=1,
                              charts="As the flow has them")
         self.assertEqual(os.path.basename(caught.filename), "test_wheel.py")
@@ -520,9 +520,9 @@ class Functions(unittest.TestCase):
 
             self.assertRegex(run("one_mesh.py", path["in.ply"], path["one.ply"]), r"^\d+ charts")
             self.assertRegex(run("chosen_seams.py", path["one.ply"], path["two.obj"]),
-                             r"^\d\d+ edges as chosen, 0 more, \d+ charts")
+                             r"^\d\d+ chosen edges, 0 more, \d+ charts")
             self.assertRegex(run("chosen_seams.py", path["in.ply"], path["two.obj"], "60"),
-                             "edges as chosen, 0 more, 14 charts")
+                             "chosen edges, 0 more, 14 charts")
             with open(path["two.obj"], encoding="utf-8") as source:
                 self.assertGreater(sum(line.startswith("vt ") for line in source),
                                    len(meshes.double_torus().vertices))
@@ -677,7 +677,7 @@ class Functions(unittest.TestCase):
             scene.export(os.path.join(folder, "two.glb"))
             for given in (scene, os.path.join(folder, "two.glb")):
                 self.assertEqual(len(flatten(given).faces), 2 * len(faces))
-            # A texture that is drawn anew goes with the mesh, else the old one with its coordinates.
+            # A transferred texture goes with the mesh, else the old one with its coordinates.
             white = trimesh.visual.material.SimpleMaterial(image=PIL.Image.new("RGB", (8, 8), "white"))
             points = result.vertices[:, :2]
             trimesh.Trimesh(result.vertices, result.faces, process=False,
@@ -766,8 +766,8 @@ class Functions(unittest.TestCase):
                 flatten(bad)
         for error, pattern, slip in (
                 (TypeError, "'cone_distorsion': did you mean 'cone_distortion'", {"cone_distorsion": 1}),
-                (ValueError, "'Disc' is no choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
-                (ValueError, "'Torus' is no choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
+                (ValueError, "'Disc' is not a choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
+                (ValueError, "'Torus' is not a choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
                 (ValueError, "^target_curvature: 99", {"target_curvature": 99}),
                 (TypeError, "^cone_distortion must be of type float", {"cone_distortion": "a"}),
                 (TypeError, "^flat_layer must be of type bool", {"flat_layer": "yes"}),

@@ -82,7 +82,7 @@ def _unfiltered(kind, line, above, step):
 
 
 def shattered(faces):
-    """Wedges of an atlas of a cell for each two faces, in another order, without room between them."""
+    """Wedges of an atlas of a cell for each two faces, in another order, without space between them."""
     cells = math.ceil(math.sqrt((len(faces) + 1) // 2))
     step = next(s for s in range(7, len(faces) + 9) if math.gcd(s, len(faces)) == 1)
     wedges = [None] * len(faces)

@@ -3,7 +3,7 @@
 # window_newer.sh BUILD_DIR FOLDER [VERSION]: the filter in the real window of MeshLab 2025.07 (the
 # default) or 2022.02, which Debian 12 does not have: a newer Debian is unpacked into FOLDER (1 GB,
 # some minutes; kept for the next time, one folder for each version) and MeshLab runs inside. For a
-# person to start, as root; it is no part of tests/run.sh. Leaves pictures in BUILD_DIR/pictures;
+# person to start, as root; it is not a part of tests/run.sh. Leaves pictures in BUILD_DIR/pictures;
 # window_2022.png and window_2025.png of them are those in screenshots/. Exit 77: it cannot run on this machine.
 set -euo pipefail
 build=$(cd "${1:?usage: window_newer.sh BUILD_DIR FOLDER [VERSION]}" && pwd)

@@ -40,7 +40,7 @@ std::vector<FlippedFlow> flows(std::uint64_t seed)
 	return all;
 }
 
-/// Both are one figure, but for a motion without reflection.
+/// Both are one figure, except for a motion without reflection.
 void expectCongruent(const PlanarLayout& a, const PlanarLayout& b)
 {
 	ASSERT_EQ(a.points.size(), b.points.size());
@@ -236,7 +236,7 @@ TEST(CommonRefinement, MapsEndEdgesByTheProjectiveMapOfTheRadii)
 				}
 				++edges;
 				const StraightLine& line = found->second;
-				// An edge of the input that is kept, or as good as straight, is no test.
+				// An edge of the input that is kept, or as good as straight, is not a test.
 				bool inInputEdge = false;
 				for (std::size_t i = 1; i + 1 < line.points.size(); ++i)
 					inInputEdge |= inputEdgeAt(r.refinement.source[line.points[i]]) ==

@@ -587,7 +587,7 @@ struct Told
 	std::vector<std::string> lines;
 	std::size_t last = std::numeric_limits<std::size_t>::max();
 
-	static int32_t hear(void* context, double fraction, const char* text)
+	static int32_t receive(void* context, double fraction, const char* text)
 	{
 		Told& told = *static_cast<Told*>(context);
 		if (fraction < 0.0) {
@@ -603,7 +603,7 @@ TEST(Library, TellsAndIsCancelled)
 {
 	CRun run(slab());
 	Told told;
-	ASSERT_EQ(ricci_set_listener(run, Told::hear, &told), RICCI_OK);
+	ASSERT_EQ(ricci_set_listener(run, Told::receive, &told), RICCI_OK);
 	run.execute();
 	EXPECT_TRUE(std::is_sorted(told.fractions.begin(), told.fractions.end()));
 	EXPECT_GT(told.fractions.size(), 100u);
@@ -615,7 +615,7 @@ TEST(Library, TellsAndIsCancelled)
 	for (std::size_t n = 1; n < told.fractions.size(); n += 1 + n / 3) {
 		Told cancels;
 		cancels.last = n;
-		ASSERT_EQ(ricci_set_listener(run, Told::hear, &cancels), RICCI_OK);
+		ASSERT_EQ(ricci_set_listener(run, Told::receive, &cancels), RICCI_OK);
 		EXPECT_EQ(ricci_execute(run), RICCI_CANCELLED);
 		EXPECT_EQ(run.message(), "Cancelled: the mesh is unchanged.");
 		EXPECT_EQ(cancels.fractions.size(), n);

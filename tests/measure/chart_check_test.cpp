@@ -261,7 +261,7 @@ Parametrization squares(const std::vector<Point2>& corners)
 	return mapWith(flat);
 }
 
-/// The strip of a ring, turning by \p angle: it overlaps itself where that is more than 2 pi, but for its
+/// The strip of a ring, turning by \p angle: it overlaps itself where that is more than 2 pi, except for its
 /// ends, which lie beside each other.
 Parametrization strip(double angle)
 {

@@ -190,7 +190,7 @@ TEST(OpenedSurfaces, TurnTheMinorityOfAComponent)
 	expectWords(
 		map.notes[0],
 		{std::to_string(std::count(turned.begin(), turned.end(), 1)) +
-		 " faces were oriented against"});
+		 " faces were turned over for the map"});
 
 	SurfaceMesh mesh = tetrahedron();
 	mesh.triangles[0] = reversed(mesh.triangles[0]); // where the search starts

@@ -44,7 +44,7 @@ TEST(Area, OfFlatTrianglesIsThatOfTheirPlacesInSpace)
 	}
 	EXPECT_EQ(euclideanArea({3.0, 4.0, 5.0}), 6.0);
 	EXPECT_EQ(euclideanArea({13.0, 14.0, 15.0}), 84.0);
-	// A needle: half its perimeter is no double, and Heron's formula as it stands gives 0.
+	// A needle: half its perimeter is not a double, and Heron's formula as it stands gives 0.
 	EXPECT_NEAR(
 		euclideanArea({0x1p17, 0x1p17 - 0x1p-33, 0x1p-33 + 0x1p-35}) / (3.0 * 0x1p-19), 1.0, 1e-14);
 }

@@ -31,7 +31,7 @@ Parametrization refined(const SurfaceMesh& mesh, const std::vector<double>& want
 	return parametrizeEuclidean(mesh, prescribing(wanted), options);
 }
 
-/// A surface of the input's kind, whose metric in the plane is flat but for the cones.
+/// A surface of the input's kind, whose metric in the plane is flat except for the cones.
 void expectValid(const SurfaceMesh& mesh, const Parametrization& map)
 {
 	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);

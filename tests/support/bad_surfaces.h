@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that are no oriented manifold.
+// Triangles that do not form an oriented manifold.
 #ifndef RICCI_TESTS_BAD_SURFACES_H
 #define RICCI_TESTS_BAD_SURFACES_H
 

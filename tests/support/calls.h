@@ -67,7 +67,7 @@ std::vector<Figure> figuresOf(const Report& report);
 std::vector<Figure> figuresOf(const SphereMap& map);
 std::vector<Figure> figuresOf(const Outcome& outcome);
 
-/// Every bit that a call gives but for u and lengths, which the mesh's scale has a part in.
+/// Every bit that a call gives except for u and lengths, which the mesh's scale has a part in.
 std::string bitsOf(const Outcome& outcome);
 
 } // namespace ricci::testing

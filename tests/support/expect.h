@@ -71,7 +71,7 @@ E refusalFor(typename E::Problem problem, const std::vector<std::string>& words,
 }
 
 /// The surface cut open is connected and has Euler characteristic 1: a disk, with every marked vertex on its
-/// boundary. Boundary edges are no cuts.
+/// boundary. Boundary edges are not cuts.
 inline void expectDiskThroughMarks(
 	const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& marked)
 {

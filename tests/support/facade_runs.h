@@ -22,7 +22,7 @@ struct FacadeCase
 	Options params;
 };
 
-/// Between them they reach flips, the double, splits, seams and packing. Cuts for room, for which charts are
+/// Between them they reach flips, the double, splits, seams and packing. Cuts for packing, for which charts are
 /// packed again and again, are left to one of the facadeRuns().
 std::vector<FacadeCase> facadeCases();
 

@@ -57,7 +57,7 @@ bool reachesTheFlow(const Run& run)
 {
 	Listener listener(1, "Solving for the metric");
 	try {
-		heard(listener, run);
+		withListener(listener, run);
 	}
 	catch (const Cancelled&) {
 		return true;

@@ -50,9 +50,9 @@ private:
 	std::string m_stage;
 };
 
-/// What \p run gives while \p listener hears of it.
+/// The result of \p run, which reports to \p listener.
 template<class Run>
-auto heard(Progress& listener, const Run& run)
+auto withListener(Progress& listener, const Run& run)
 {
 	const Task task(listener);
 	return run();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
-// tabulators between the columns; the last column is the refusal, if there is one.
+// tabs between the columns; the last column is the refusal, if there is one.
 #include "flat_map.h"
 #include "listener.h"
 #include "mesh_file.h"
@@ -36,7 +36,7 @@ const char* const kUsage =
 	"  --refine             give the map on the common refinement (method flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
-	"  --packed             the whole way to the unit square; count there what lies on each other\n"
+	"  --packed             go on to the unit square; count overlaps there\n"
 	"  --margin M           between the charts, with --packed\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
@@ -126,7 +126,7 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"flow", Charts::OfTheFlow},
 				 {"separate", Charts::WithoutOverlap},
-				 {"strips", Charts::CutForRoom}});
+				 {"strips", Charts::CutForPacking}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")
@@ -220,7 +220,7 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	Outcome out;
 	const std::clock_t start = std::clock();
 	const WholeMap whole =
-		testing::heard(progress, [&] { return chartsInPlane(mesh, {}, options); });
+		testing::withListener(progress, [&] { return chartsInPlane(mesh, {}, options); });
 	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
@@ -242,7 +242,8 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	params.chartMargin = a.margin;
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Flow::Result flat = testing::heard(progress, [&] { return Flow::Compute(m, params); });
+	const Flow::Result flat =
+		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;

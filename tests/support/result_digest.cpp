@@ -131,7 +131,7 @@ const std::vector<Case> kCases = {
 	{"capped", [](Flow::Params& p) { p.holes = Holes::Capped; }},
 	{"strips_unscaled",
 	 [](Flow::Params& p) {
-		 p.charts = Charts::CutForRoom;
+		 p.charts = Charts::CutForPacking;
 		 p.chartMargin = 0.01;
 	 }},
 	{"no_surgery", [](Flow::Params& p) { p.method = Method::FixedTriangles; }},

@@ -11,7 +11,7 @@
 namespace ricci::testing {
 namespace {
 
-/// A chart in the unit square, curved and turned, with room round it.
+/// A chart in the unit square, curved and turned, with space around it.
 Point2 curved(const Point2& p)
 {
 	const double x = p[0] + 0.15 * p[1] * p[1], y = p[1] - 0.1 * p[0] * p[0];
@@ -445,7 +445,8 @@ TEST(CarryTexture, IsTheSameWithManyThreadsAndCanBeCancelled)
 		carried<unsigned char>(mesh, {&old}, 150, true, 4).rgba);
 	for (int after = 1; after < 7; ++after) {
 		Listener impatient(after);
-		EXPECT_THROW(heard(impatient, [&] { carried<unsigned char>(mesh, {&old}, 8); }), Cancelled);
+		EXPECT_THROW(
+			withListener(impatient, [&] { carried<unsigned char>(mesh, {&old}, 8); }), Cancelled);
 	}
 }
 
@@ -466,10 +467,11 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 	for (const Picture<unsigned char>& picture : old)
 		views.push_back(&picture);
 	Listener ticks, drawing(std::numeric_limits<int>::max(), "Drawing the texture");
-	const auto result = heard(ticks, [&] { return carried<unsigned char>(mesh, views, size); });
+	const auto result =
+		withListener(ticks, [&] { return carried<unsigned char>(mesh, views, size); });
 	// All tiles of all pictures would be 64 * 64 of them, the rows of the fill are 512.
 	EXPECT_LT(ticks.calls(), 512 + pictures * 16);
-	heard(drawing, [&] { return carried<unsigned char>(mesh, views, size); });
+	withListener(drawing, [&] { return carried<unsigned char>(mesh, views, size); });
 	EXPECT_GE(drawing.calls(), cells); // a row of cells takes a row of tiles at least
 	EXPECT_TRUE(std::is_sorted(drawing.fractions.begin(), drawing.fractions.end()));
 	for (int y = 0; y < size; ++y)

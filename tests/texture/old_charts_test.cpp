@@ -55,7 +55,7 @@ TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 	const int size = 256; // 65536 texels: one tick
 	Listener ticks;
 	const OldOwners owners =
-		heard(ticks, [&] { return OldOwners(old.faces, old.charts, old.all, size, size); });
+		withListener(ticks, [&] { return OldOwners(old.faces, old.charts, old.all, size, size); });
 	const int ofPictures = static_cast<int>(OldOwners::kMaxLayers) + 2, ofFaces = 2;
 	EXPECT_LE(ticks.calls(), 2 * (ofPictures + ofFaces));
 	EXPECT_GE(ticks.calls(), 2 * ofPictures - 4);
@@ -101,7 +101,8 @@ TEST(NearestFill, IsTheNearest)
 		}
 		Listener impatient(1);
 		EXPECT_THROW(
-			heard(impatient, [&] { fillFromNearest(covered, many.target(), 2); }), Cancelled);
+			withListener(impatient, [&] { fillFromNearest(covered, many.target(), 2); }),
+			Cancelled);
 	}
 }
 

@@ -59,7 +59,7 @@ struct Square
 	std::vector<Triangle2> place;
 };
 
-/// An atlas of one cell for two triangles, without room between them, in random order: as MeshLab's own.
+/// An atlas of one cell for two triangles, without space between them, in random order: as MeshLab's own.
 inline std::vector<Triangle2> shatteredAtlas(std::size_t triangles, Random& random)
 {
 	std::vector<Triangle2> atlas(triangles);

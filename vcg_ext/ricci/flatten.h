@@ -20,7 +20,7 @@ struct FlowPlan
 	FlowDomain domain;
 	InitialPacking start; ///< 4.1
 	TargetRequest request;
-	Target target; ///< 5.2, 5.3; chosen at each start anew where edges are swapped (5.4)
+	Target target; ///< 5.2, 5.3; chosen again at each start where edges are swapped (5.4)
 };
 
 /// The domain of the flow to the plane, the initial packing, and what the target is chosen from.
@@ -51,7 +51,7 @@ Parametrization flattenToDisk(
 /// Where nearly all curvature of a surface lies at its creases, what is between them is its own flat metric,
 /// and a flow that has to spread that curvature over the surface distorts what could lie flat. The component
 /// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
-/// across creases again where they have room: a crease carries no curvature, only its corners do, so that
+/// across creases again where they fit: a crease carries no curvature, only its corners do, so that
 /// joining distorts nothing. Creases are all edges above one of several angles, each of which is tried; the map
 /// that costs least is taken (MapCost).
 /// \param maxBetween share of the curvature that may be left between creases

@@ -105,15 +105,16 @@ void logFlow(const FlowResult& flow, const FlowOptions& options)
 		const auto count =
 			added.atVertex.size() - std::count(added.atVertex.begin(), added.atVertex.end(), 0.0);
 		logLine(
-			"Some faces have no area, or one side a million times shorter than another: the flow "
-			"sees the edges at " +
-			std::to_string(count) + " of the vertices longer, by up to " +
-			numberText(added.largest, 3) + " of what they then are.");
+			"Some faces have no area, or one side a million times shorter than another: the solver "
+			"lengthened the edges at " +
+			std::to_string(count) + " of the vertices, by up to " + numberText(added.largest, 3) +
+			" of their new length.");
 	}
 	if (flow.residual >= options.epsilon)
 		logLine(
-			"The residual asked for is below what rounding allows: the curvature is reached to " +
-			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
+			"The requested accuracy is beyond rounding: the curvature is within " +
+			numberText(flow.residual, 3) + " of its target (rounding floor " +
+			numberText(flow.floor, 3) + ").");
 }
 
 VertexArray<char>

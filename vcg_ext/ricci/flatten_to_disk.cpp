@@ -65,8 +65,8 @@ DiskMap layOut(
 		map.layout =
 			layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
 		logLine(
-			"The short seams lead " + numberText(radius, 3) +
-			" out in the disk, too far for floats. Longer ones around the middle lead " +
+			"The short seams reach " + numberText(radius, 3) +
+			" out in the disk, too far for floats. Longer seams around the centre reach " +
 			numberText(radiusOf(map.layout.corners), 3) + " out.");
 	}
 	map.layout.pairing = pairingOfArcs(t, cut, map.layout.pairing);
@@ -74,9 +74,8 @@ DiskMap layOut(
 	advance(1.0 - kAfterFlow, "Canonical generators");
 	map.group = fuchsianGroup(t, cut, map.layout.pairing, options.canonicalGenerators);
 	if (options.canonicalGenerators && !map.group.isCanonical())
-		logLine(
-			"There are no canonical generators: they would move points farther than floating point "
-			"numbers can tell.");
+		logLine("There are no canonical generators: they would move points farther than "
+				"floating-point numbers can resolve.");
 	return map;
 }
 

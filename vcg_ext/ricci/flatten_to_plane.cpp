@@ -135,7 +135,7 @@ FlowResult keepAreas(
 		take);
 	if (!isForCost && round == kMaxRounds) {
 		++log.endedEarly;
-		logLine("The search for cones that keep areas has ended at the bound on its flows.");
+		logLine("The search for cones stopped at its limit of solves.");
 	}
 	if (round > 0) {
 		const AreaChange change = areaChange(surface, flowFactor(best));
@@ -256,8 +256,8 @@ Finish finishOf(const FlowDomain& domain, const Options& options, const Target& 
 							  (!domain.surface.topology.type.isClosed() && !target.hasFixed());
 	if (options.finish != Finish::LeastStretch || !isPrescribed)
 		return options.finish;
-	logLine("The boundary or the turns across seams are prescribed: least distortion, not least "
-			"stretch.");
+	logLine("The boundary or the turns across seams are prescribed: the finish is least distortion "
+			"instead of least stretch.");
 	return Finish::LeastDistortion;
 }
 

@@ -143,12 +143,12 @@ Parametrization givenOrFlow(
 {
 	Options plain = options;
 	plain.cones.onlyWhereNeeded = true;
-	auto map = attempt("the map that the mesh has stays", [&] {
+	auto map = attempt("the existing map stays", [&] {
 		Parametrization part = flattenToPlane(component, input, plain);
 		separateCharts(options, part);
 		return part;
 	});
-	const std::string own = "the map that the mesh has: " + costText(given);
+	const std::string own = "the existing map: " + costText(given);
 	if (!map)
 		return chosen(own, std::move(given));
 	given.report.iterations = map->report.iterations;

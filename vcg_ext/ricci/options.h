@@ -50,7 +50,7 @@ enum class Holes {
 	ShortCapped ///< capped where they are short, see flowDomain(); the others are boundaries
 };
 
-/// What a map on flipped triangles is given back on.
+/// The mesh on which the result is returned.
 enum class OutputTriangulation {
 	KeepMesh,        ///< the input's faces; each takes the flow's map at its corners
 	CommonRefinement ///< the overlay of the input's and the flow's triangles, on which the map is
@@ -62,8 +62,8 @@ enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
 	///< that do not; the others stay as they are, and so do disks and rectangles
-	CutForRoom, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
-	///< the seam, see packForRoom(), unless the mesh has a map. A cut counts as one of an overlap
+	CutForPacking, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
+	///< the seam, see packWithCuts(), unless the mesh has a map. A cut counts as one of an overlap
 	AsGiven ///< there is no flow: those of the map that the mesh has (SurfaceMesh::map) keep their shapes, and are
 			///< only turned and packed, all scaled by one factor
 };
@@ -111,7 +111,7 @@ struct FlowOptions
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
 	/// The hyperbolic flow takes what is above Repair for Repair: its deck transformations, which the
-	/// map of least distortion would have to keep, are no rigid motions of the plane.
+	/// map of least distortion would have to keep, are not rigid motions of the plane.
 	Finish finish = Finish::LeastDistortion;
 };
 
@@ -124,10 +124,10 @@ inline bool isFinished(const FlowOptions& options)
 /// Which cones are placed, see placeCones().
 struct ConeOptions
 {
-	/// Their number, or 0 for as many as it takes to bring the expected Report::areaDistortionSpread
-	/// below \ref distortion, or, if that is 0, for as many as lower the expected energy of the map and
-	/// the price of its seams together, see MapCost; with flips the areas that come out count as well,
-	/// see keepAreas(). The distortion also is the spread up to which Automatic does without cones.
+	/// If count > 0: that many cones. Else, if distortion > 0: as many as bring the expected
+	/// Report::areaDistortionSpread below it, which is also the spread up to which Automatic places none.
+	/// If both are 0: as many as minimise the expected MapCost, which is energy plus the price of seams.
+	/// With flips the resulting areas count as well, see keepAreas().
 	int count = 0;
 	double distortion = 0.0;
 	ConeRounding rounding = ConeRounding::Free;
@@ -202,7 +202,7 @@ struct Options : FlowOptions, TargetOptions, PackOptions
 	/// target gives values for the surface's own boundary: Flat and Prescribed.
 	Holes holes = Holes::ShortCapped;
 
-	Charts charts = Charts::CutForRoom;
+	Charts charts = Charts::CutForPacking;
 };
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.

@@ -184,13 +184,12 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 			note(std::to_string(count) + (count == 1 ? " face stays" : " faces stay") + why, map);
 	};
 	const std::string tooSmall =
-		" flipped in the coordinates stored: smaller than floats can hold.";
+		" flipped in the stored coordinates: smaller than floats can represent.";
 	noteCount(
 		map.report.flippedFaces,
-		output == OutputTriangulation::KeepMesh
-			? " flipped: straight lines between the vertices do not fit the map there. The common "
-			  "refinement may draw it without flipped faces."
-			: tooSmall);
+		output == OutputTriangulation::KeepMesh ? " flipped: straight edges cannot follow the map "
+												  "there. The common refinement may avoid this."
+												: tooSmall);
 	noteCount(map.report.flippedByRounding, tooSmall);
 }
 
@@ -215,9 +214,9 @@ void pack(const Options& options, WholeMap& whole)
 	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	if (options.charts == Charts::CutForRoom && whole.opened.mesh.map.empty() &&
+	if (options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
 		options.normalizeUV && options.target == TargetCurvature::Automatic)
-		packForRoom(map, options, turns);
+		packWithCuts(map, options, turns);
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
@@ -267,7 +266,7 @@ Parametrization complete(const SurfaceMesh& mesh, WholeMap whole)
 	if (report.stretch && unseen > 0)
 		note(
 			std::to_string(unseen) + (unseen == 1 ? " face is" : " faces are") +
-				" lower than a texel of the largest texture and left out of the objective.",
+				" lower than a texel of the largest texture and excluded from the objective.",
 			map);
 	if (report.stretch)
 		report.objective = costOf(map.mesh, report.seamLength + report.chosenSeamLength).total();
@@ -376,9 +375,9 @@ parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Op
 	requirePicture(options, map.report, map.mesh.size());
 	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch && mesh.map.empty())
 		note(
-			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
-													  "than on the other: flipped faces beside "
-													  "them were mended.",
+			std::to_string(map.report.unequalSeams) +
+				" seam edges are longer on one side than on the other: flipped faces next to them "
+				"were repaired.",
 			map);
 	if (isFinished(options))
 		noteFlipped(options.output, map);

@@ -8,7 +8,7 @@
 
 namespace ricci {
 
-/// Whom a run speaks to, see Task (base/task.h). The default listener is silent and never cancels.
+/// Receives the log lines and the progress of a run, see Task (base/task.h). The default listener is silent and never cancels.
 class Progress
 {
 public:

@@ -140,7 +140,7 @@ struct DistortionReport
 struct ChartReport
 {
 	int charts = 0;
-	int seamEdges = 0;       ///< edges of the input along which the layout is cut, but for those
+	int seamEdges = 0;       ///< edges of the input along which the layout is cut, except for those
 							 ///< that SurfaceMesh::seam asks for
 	double seamLength = 0.0; ///< of these edges and of overlapCuts on the mesh, each once
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
@@ -162,7 +162,7 @@ struct Report : SurfaceReport, FlowReport, InvariantReport, DistortionReport, Ch
 	/// price of all seams, MapCost::total().
 	std::optional<double> stretch, objective;
 
-	/// Points of the map that the repair moved, see Finish; one that was moved again in the coordinates stored counts
+	/// Points of the map that the repair moved, see Finish; one that is moved again after rounding to float counts
 	/// twice.
 	int finishMoved = 0;
 	/// Points of the common refinement that are not vertices of the input; 0 where the result keeps the mesh.

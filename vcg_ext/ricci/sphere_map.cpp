@@ -277,8 +277,8 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 		logLine(
 			std::to_string(map.flippedFaces) +
 			(map.flippedFaces == 1 ? " face of the sphere is" : " faces of the sphere are") +
-			" flipped: parts of the surface become smaller there than straight faces, or doubles, "
-			"can draw.");
+			" flipped: parts of the surface become too small there for straight faces or for "
+			"doubles.");
 	const AreaDistortion area = areaDistortion(before, after);
 	map.areaDistortionMean = area.mean;
 	map.areaDistortionSpread = area.spread;

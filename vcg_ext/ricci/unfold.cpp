@@ -141,7 +141,7 @@ unfold(const Component& component, const Options& options, double maxBetween)
 	std::vector<std::vector<std::string>> lines(divisions.size()); // of the log
 	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
 	if (atOnce == 0 && !maps.empty()) {
-		logLine("There is not enough memory to unfold the surface between its creases, too.");
+		logLine("There is not enough memory to also unfold the surface between its creases.");
 		return std::nullopt;
 	}
 	const auto count = static_cast<int>(maps.size());

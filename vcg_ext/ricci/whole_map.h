@@ -68,7 +68,7 @@ std::vector<Component> leaveOut(
 	std::vector<Component>& components);
 
 /// Adds a packed map of components that were taken out to that of the others, as one chart more: in the square
-/// inscribed in a disk of its own, and open along its seams, which are no isometries of the disk.
+/// inscribed in a disk of its own, and open along its seams, which are not isometries of the disk.
 /// \param leftOut in the unit square
 /// \param map before placeDisks()
 void addBeside(Parametrization leftOut, Parametrization& map);

@@ -75,345 +75,316 @@ class Parametrization:
 
 class Flattening(Parametrization):
     converged: bool
-    """always true; anything else is an error"""
+    """always true, because anything else is an error"""
     iterations: int
-    """Newton steps, over all solves, also for maps that were not taken"""
+    """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
-    """the smallest residual that rounding allows"""
+    """the smallest residual that rounding permits"""
     lengthened: float
-    """0, but where faces have no area or one side a million times shorter than another: the
-    flow sees the edges at their vertices longer, and this is the largest share of an edge that
+    """0, except where a face has no area or one side a million times shorter than another: the
+    solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
     is added (1: of an edge without length)"""
     qc_mean: float
-    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
-    below leave out faces whose height is below 1e-9 of their side, and faces without area in
-    the plane"""
+    """angle distortion σ₁/σ₂ (1: none), mean over faces, excluding faces whose height is below
+    1e-9 of their side or that have no area in the plane"""
     qc_area_mean: float
-    """the same, faces weighted by their area on the mesh"""
+    """the same, mean by area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces"""
+    """the same, 99th percentile"""
     qc_max: float
-    """the same: largest of all faces"""
+    """the same, largest"""
     qc_vertex_mean: float
-    """mean over vertices of the vertex value: the paper's number"""
+    """the same, mean over vertices: the paper's number"""
     area_distortion_mean: float
-    """with s = a face's share of the area in the plane over its share in space: mean of max(s,
-    1/s), weighted by area in space; 1 if all areas keep their ratios"""
+    """mean of max(s, 1/s), s = a face's share of the area in the plane over its share in space,
+    weighted by area in space (1: no area distortion)"""
     area_distortion_spread: float
     """standard deviation of ln s, weighted likewise"""
     stretch: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
-    texture (1/16384 of √area), unless they cover as much as a row of texels"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map
+    (4: none), excluding faces lower than a texel of the largest texture (1/16384 of √area)
+    unless together they cover a row of texels"""
     objective: float
-    """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
-    √area"""
+    """what Automatic minimises: stretch + 0.05 × (length of all seams) / √area"""
     target_used: int
-    """Euclidean filter: what the map was made with in the end: the number of a
-    target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
-    length, 9: cut along creases and unfolded; 0: components differ"""
+    """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
+    free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
+    and unfolded; 0: components differ"""
     expected_spread: float
-    """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
-    linear problem predicts"""
+    """Euclidean filter, where cones are considered: the area_distortion_spread that the linear
+    problem predicts"""
     cone_vertices: Floats
-    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
-    radians"""
+    """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     cone_curvatures: Floats
-    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
-    radians"""
+    """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     boundary_ratio_min: float
-    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
-    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    """Euclidean filter, free boundary: the smallest ratio of a boundary edge's length in the
+    map at real size to that on the mesh, 1 unless the finish moves it"""
     boundary_ratio_max: float
-    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
-    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    """the largest such ratio"""
     flipped_faces: int
     """faces that are flipped or have no area in the plane"""
     flipped_by_rounding: int
-    """additional ones once the coordinates are floats"""
+    """additional ones after rounding to float"""
     finish_moved: int
-    """texture vertices that the repair moved; one moved again in the stored coordinates counts
+    """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
     ended_early: int
-    """searches for something better (cones that keep areas, repair, least distortion or
-    stretch, cuts for room, the division of disks) that the bound on their work has ended: the
-    map is valid, and could be a little better; the log says which"""
+    """searches (cones, repair, least distortion or stretch, cuts for packing, division of
+    disks) that stopped at their work limit: the map is valid and could be slightly better; the
+    log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
-    mesh"""
+    """points of the common refinement that are not vertices of the mesh"""
     edge_swaps: int
-    """made by Edge swaps"""
+    """swaps made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swaps"""
+    """boundary edges that it split"""
     euler_characteristic: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     boundary_loops: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     components: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     cut_nonmanifold_edges: int
-    """edges with more than two faces, or with two that have the same vertices"""
+    """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
-    """vertices with several places in the map because of their fans of faces"""
+    """vertices with several triangle fans, and so several places in the map"""
     duplicate_faces: int
-    """faces with the vertices of another, each a sheet of its own"""
+    """faces that duplicate another, each a separate sheet"""
     one_sided_components: int
-    """cut along short one-sided loops"""
+    """components cut along short one-sided loops"""
     degenerate_faces: int
-    """drawn as a segment or a point: faces that use a vertex twice, and those of components
-    without area"""
+    """faces drawn as a segment or a point"""
     cones: int
     """interior vertices that are not flat"""
     chosen_seam_edges: int
-    """edges that are opened because seams asks for it, and their length on the mesh; edges on
-    its border do not count"""
+    """edges opened by seams, without those on its border"""
     chosen_seam_length: float
-    """edges that are opened because seams asks for it, and their length on the mesh; edges on
-    its border do not count"""
+    """their length on the mesh"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """pieces in the plane"""
+    """charts (UV islands)"""
     occupancy: float
-    """share of the unit square, without normalize_uv of the square that holds all charts, that
-    the charts cover"""
+    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
+    around all charts) that the charts cover"""
     capped_holes: int
-    """loops closed for the flow"""
+    """boundary loops closed for the flow"""
     overlapping_charts: int
-    """faces that cover a part of the plane together with another one, of their chart or not, in
-    the coordinates as floats; the charts that these are in"""
+    """charts with faces that overlap in the stored floats"""
     overlapping_faces: int
-    """faces that cover a part of the plane together with another one, of their chart or not, in
-    the coordinates as floats; the charts that these are in"""
+    """faces that overlap another one, in their own chart or not"""
     unequal_seams: int
-    """edges of the seams whose two sides differ in length, in the disk in hyperbolic length, by
-    more than 1/1000, in the coordinates as floats: flipped faces beside them were mended, or
-    finish Least stretch has let the seams go"""
+    """seam edges whose two sides differ in (hyperbolic) length by more than 1/1000 in the
+    stored floats, because flipped faces next to them were repaired or by finish Least
+    stretch"""
     overlap_cuts: int
-    """edges of the output that are cut to separate them, or to set apart faces that floats
-    cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
+    """output edges cut to separate these, to pack better, or around faces that floats cannot
+    represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
-    """length of these further edges and cuts on the mesh, in its units"""
+    """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float
-    """the same, divided by the root of the area of the mesh"""
+    """the same, over the square root of its area"""
     torus_tau_re: float
-    """flat torus: its modulus in the fundamental domain"""
+    """flat torus: real part of its modulus in the fundamental domain"""
     torus_tau_im: float
-    """flat torus: its modulus in the fundamental domain"""
+    """imaginary part of this modulus"""
     annulus_modulus: float
     """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
     holonomy_error: float
-    """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
-    seam from a multiple of π/2, in radians"""
+    """with cone_rounding 1, except for Edge swaps: the largest distance of the rotation across
+    a seam from a multiple of π/2, in radians"""
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
-    it"""
+    matrix, g × g, row by row, which belongs to the mesh's own flat faces and does not depend on
+    the target"""
     period_error: float
     """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
     (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
-    """with carry_texture, of faces that had a texture: texels of the new one for a unit of
-    length over those of the old one, mean by area in space"""
+    """with carry_texture, of faces that had a texture: texels of the new one per unit of length
+    over those of the old one, mean by area"""
     sphere_qc_area_mean: float
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
     sphere_area_distortion_mean: float
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
     sphere_flipped_faces: int
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
 
 class Uniformization(Parametrization):
     disk: Complex
     """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""
     converged: bool
-    """always true; anything else is an error"""
+    """always true, because anything else is an error"""
     iterations: int
-    """Newton steps, over all solves, also for maps that were not taken"""
+    """Newton steps of all solves, including discarded candidates"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
-    """the smallest residual that rounding allows"""
+    """the smallest residual that rounding permits"""
     lengthened: float
-    """0, but where faces have no area or one side a million times shorter than another: the
-    flow sees the edges at their vertices longer, and this is the largest share of an edge that
+    """0, except where a face has no area or one side a million times shorter than another: the
+    solver lengthens the edges at its vertices, and this is the largest fraction of an edge that
     is added (1: of an edge without length)"""
     qc_mean: float
-    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
-    below leave out faces whose height is below 1e-9 of their side, and faces without area in
-    the plane"""
+    """angle distortion σ₁/σ₂ (1: none), mean over faces, excluding faces whose height is below
+    1e-9 of their side or that have no area in the plane"""
     qc_area_mean: float
-    """the same, faces weighted by their area on the mesh"""
+    """the same, mean by area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces"""
+    """the same, 99th percentile"""
     qc_max: float
-    """the same: largest of all faces"""
+    """the same, largest"""
     qc_vertex_mean: float
-    """mean over vertices of the vertex value: the paper's number"""
+    """the same, mean over vertices: the paper's number"""
     area_distortion_mean: float
-    """with s = a face's share of the area in the plane over its share in space: mean of max(s,
-    1/s), weighted by area in space; 1 if all areas keep their ratios"""
+    """mean of max(s, 1/s), s = a face's share of the area in the plane over its share in space,
+    weighted by area in space (1: no area distortion)"""
     area_distortion_spread: float
     """standard deviation of ln s, weighted likewise"""
     stretch: float
-    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
-    4 if all lengths keep their ratios. It leaves out faces lower than a texel of the largest
-    texture (1/16384 of √area), unless they cover as much as a row of texels"""
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map
+    (4: none), excluding faces lower than a texel of the largest texture (1/16384 of √area)
+    unless together they cover a row of texels"""
     objective: float
-    """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
-    √area"""
+    """what Automatic minimises: stretch + 0.05 × (length of all seams) / √area"""
     target_used: int
-    """Euclidean filter: what the map was made with in the end: the number of a
-    target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
-    length, 9: cut along creases and unfolded; 0: components differ"""
+    """Euclidean filter: the target of the final map: the number of a target_curvature, or 7:
+    free boundary without cones, 8: boundary prescribed by its length, 9: cut along sharp edges
+    and unfolded; 0: components differ"""
     expected_spread: float
-    """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
-    linear problem predicts"""
+    """Euclidean filter, where cones are considered: the area_distortion_spread that the linear
+    problem predicts"""
     cone_vertices: Floats
-    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
-    radians"""
+    """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     cone_curvatures: Floats
-    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
-    radians"""
+    """Euclidean filter: the vertices of the placed cones, and their curvatures in radians"""
     boundary_ratio_min: float
-    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
-    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    """Euclidean filter, free boundary: the smallest ratio of a boundary edge's length in the
+    map at real size to that on the mesh, 1 unless the finish moves it"""
     boundary_ratio_max: float
-    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
-    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    """the largest such ratio"""
     flipped_faces: int
     """faces that are flipped or have no area in the plane"""
     flipped_by_rounding: int
-    """additional ones once the coordinates are floats"""
+    """additional ones after rounding to float"""
     finish_moved: int
-    """texture vertices that the repair moved; one moved again in the stored coordinates counts
+    """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
     ended_early: int
-    """searches for something better (cones that keep areas, repair, least distortion or
-    stretch, cuts for room, the division of disks) that the bound on their work has ended: the
-    map is valid, and could be a little better; the log says which"""
+    """searches (cones, repair, least distortion or stretch, cuts for packing, division of
+    disks) that stopped at their work limit: the map is valid and could be slightly better; the
+    log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
-    mesh"""
+    """points of the common refinement that are not vertices of the mesh"""
     edge_swaps: int
-    """made by Edge swaps"""
+    """swaps made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swaps"""
+    """boundary edges that it split"""
     euler_characteristic: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     genus: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     boundary_loops: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     components: int
-    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
-    components are its pieces"""
+    """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     cut_nonmanifold_edges: int
-    """edges with more than two faces, or with two that have the same vertices"""
+    """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
-    """vertices with several places in the map because of their fans of faces"""
+    """vertices with several triangle fans, and so several places in the map"""
     duplicate_faces: int
-    """faces with the vertices of another, each a sheet of its own"""
+    """faces that duplicate another, each a separate sheet"""
     one_sided_components: int
-    """cut along short one-sided loops"""
+    """components cut along short one-sided loops"""
     degenerate_faces: int
-    """drawn as a segment or a point: faces that use a vertex twice, and those of components
-    without area"""
+    """faces drawn as a segment or a point"""
     cones: int
     """interior vertices that are not flat"""
     chosen_seam_edges: int
-    """edges that are opened because seams asks for it, and their length on the mesh; edges on
-    its border do not count"""
+    """edges opened by seams, without those on its border"""
     chosen_seam_length: float
-    """edges that are opened because seams asks for it, and their length on the mesh; edges on
-    its border do not count"""
+    """their length on the mesh"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
-    """pieces in the plane"""
+    """charts (UV islands)"""
     occupancy: float
-    """share of the unit square, without normalize_uv of the square that holds all charts, that
-    the charts cover"""
+    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
+    around all charts) that the charts cover"""
     capped_holes: int
-    """loops closed for the flow"""
+    """boundary loops closed for the flow"""
     overlapping_charts: int
-    """faces that cover a part of the plane together with another one, of their chart or not, in
-    the coordinates as floats; the charts that these are in"""
+    """charts with faces that overlap in the stored floats"""
     overlapping_faces: int
-    """faces that cover a part of the plane together with another one, of their chart or not, in
-    the coordinates as floats; the charts that these are in"""
+    """faces that overlap another one, in their own chart or not"""
     unequal_seams: int
-    """edges of the seams whose two sides differ in length, in the disk in hyperbolic length, by
-    more than 1/1000, in the coordinates as floats: flipped faces beside them were mended, or
-    finish Least stretch has let the seams go"""
+    """seam edges whose two sides differ in (hyperbolic) length by more than 1/1000 in the
+    stored floats, because flipped faces next to them were repaired or by finish Least
+    stretch"""
     overlap_cuts: int
-    """edges of the output that are cut to separate them, or to set apart faces that floats
-    cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
+    """output edges cut to separate these, to pack better, or around faces that floats cannot
+    represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
-    """length of these further edges and cuts on the mesh, in its units"""
+    """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float
-    """the same, divided by the root of the area of the mesh"""
+    """the same, over the square root of its area"""
     torus_tau_re: float
-    """flat torus: its modulus in the fundamental domain"""
+    """flat torus: real part of its modulus in the fundamental domain"""
     torus_tau_im: float
-    """flat torus: its modulus in the fundamental domain"""
+    """imaginary part of this modulus"""
     annulus_modulus: float
     """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
     holonomy_error: float
-    """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
-    seam from a multiple of π/2, in radians"""
+    """with cone_rounding 1, except for Edge swaps: the largest distance of the rotation across
+    a seam from a multiple of π/2, in radians"""
     period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
-    matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
-    it"""
+    matrix, g × g, row by row, which belongs to the mesh's own flat faces and does not depend on
+    the target"""
     period_error: float
     """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
     (genus 1: the distance in the hyperbolic plane)"""
     texture_scale: float
-    """with carry_texture, of faces that had a texture: texels of the new one for a unit of
-    length over those of the old one, mean by area in space"""
+    """with carry_texture, of faces that had a texture: texels of the new one per unit of length
+    over those of the old one, mean by area"""
     sphere_qc_area_mean: float
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
     sphere_area_distortion_mean: float
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
     sphere_flipped_faces: int
-    """of the sphere layer, if it was asked for"""
+    """of the sphere layer"""
     hyperbolic_area: float
-    """computed from the side lengths alone, so it is an independent check of Gauss-Bonnet"""
+    """from the side lengths alone: an independent check of Gauss-Bonnet"""
     left_out_components: int
-    """components without a hyperbolic metric, which lie beside the disk; areas and distortion
-    are those of the others"""
+    """components without a hyperbolic metric, placed beside the disk; areas and distortion
+    exclude them"""
     relation_error: float
-    """how far the layout is from closing up: the largest angle (radians) or hyperbolic length
-    by which the isometries between neighbouring copies miss a vertex of the seam on the way
-    round it, seen from that vertex; at cones of angle θ the error of |trace| = 2 |cos(θ/2)|, at
-    geodesic boundaries that of their length L in |trace| = 2 cosh(L/2)"""
+    """the gap where the layout should close: the largest angle (radians) or hyperbolic length
+    by which the isometries between neighbouring copies miss a seam vertex on the way around it;
+    at cones of angle θ the error of |trace| = 2 |cos(θ/2)|, at geodesic boundaries that of
+    their length L in |trace| = 2 cosh(L/2)"""
     generators: Complex
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
     then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1; here (n, 2, 2)
     complex128, the matrices of the isometries"""
     generators_low: Complex
-    """with generators, number by number: what a float cannot hold of it. The sum has 31 digits;
-    here (n, 2, 2) complex128, the matrices of the isometries"""
+    """with generators, number by number: the digits beyond those of a double. The sum has 31
+    digits: mpf(high) + mpf(low) of mpmath, with mp.dps = 40; here (n, 2, 2) complex128, the
+    matrices of the isometries"""
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
@@ -496,56 +467,49 @@ def flatten(
 ) -> Flattening:
     """UV-unwraps a mesh: a conformal map into the plane.
 
-    target_curvature: What the flow is asked to reach. Automatic suits most meshes: it places
-        cones where areas would change much.
-    free_boundary: The boundary keeps its lengths, but for what the finish changes. Not read for
-        Disk, Rectangle and the flat annulus.
-    cone_distortion: 0: the cones that are worth their seams. Above 0: so many that areas change
-        by less than this (0.25: by a quarter).
-    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
-        Crease Edges'), or round selected faces.
-    output_triangulation: Common refinement: faces are divided where the flow's edges cross
-        them, so that the map is exact on every piece.
-    chart_margin: Room round each chart, as a share of the side of the square, for baking.
-        0.004: 4 pixels of 1024, 8 of 2048.
-    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
-        (the 99th percentile over the faces, and more).
+    target_curvature: Shape of the UV layout: its outline, and its cones, the points where it is
+        not flat. Automatic suits most meshes.
+    free_boundary: Let the outline of an open mesh take its natural shape. Ignored by Disk,
+        Rectangle and flat annuli.
+    cone_distortion: Largest area distortion that cones may leave (0.25: 25 %). 0: area
+        distortion and seam length are balanced.
+    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
+        edges or the outline of the selected faces.
+    output_triangulation: Common refinement adds vertices where edges of the solver cross those
+        of the mesh, so that the map is exact on every piece.
+    chart_margin: Padding between two charts (UV islands) and to the border, as a fraction of
+        the texture size. 0.004: 4 pixels at 1024.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
-    holes: Boundary loops other than the longest: boundaries too, or Capped for the flow, so
-        that the chart goes round them without seams. Short ones capped: those within a tenth of
-        the root of the area, even if all are.
-    seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
-        ten times its length, so that seams run through hollows.
-    cone_count: The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
-    cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
-        need them; all seams then differ by quarter turns.
-    method: If a triangle breaks, intrinsic flips or the paper's edge swaps give the flow
-        others, and fixed triangles end with an error; the mesh is never changed. Thurston: the
-        conventional flow on the mesh's triangles, to compare with.
-    finish: Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the
-        least mean conformal distortion, or the least stretch, of lengths too: best on chosen
-        seams, whose sides then differ. Only for the method 'Intrinsic flips'.
-    charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
-        shortest lines. Cut for room: with Automatic, also a chart that fills little of the
-        square, where the room is worth the seam. As they are: those of the texture coordinates
-        that the mesh has keep their shape, and are only turned, scaled by one factor and
-        packed.
-    normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
-        scale of the metric.
-    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
+    holes: Fill holes while solving, so that no seam runs to them: all boundary loops but the
+        longest, or only short ones (0.1 √area).
+    seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
+        ten times longer).
+    cone_count: The number of placed cones. 0: 'Cones: area distortion' decides.
+    cone_rounding: Free: the least area distortion. Multiples of pi/2: a seamless map for quad
+        remeshing, whose seams differ by quarter turns.
+    method: What happens when a triangle degenerates during the solve: the solver flips edges
+        (recommended) or swaps them, or the run fails. Thurston: the conventional flow.
+    finish: After the solve, repair flipped faces; then minimise angle distortion, or stretch,
+        where the two sides of a seam may differ. Needs 'Intrinsic flips'.
+    charts: Leave charts whole, split those that overlap, or with Automatic also for better
+        packing. Only packed: the old islands keep their shape.
+    normalize_uv: Scale the UVs uniformly into [0,1] x [0,1]. Off: they keep the real size of
+        the mesh.
+    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Needs one
         closed surface of genus 0.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
-    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
-        colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
-    report: A report of the run: a page with diagrams and its data beside it (.html), or the
-        data alone (.csv). Empty: no report.
-    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
-        radians, or at the floor that rounding sets.
-    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
+        them. Automatic: only if faces share almost no vertices.
+    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
+        new UVs. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
+        the old textures is kept.
+    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
+        Empty: no report.
+    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
+        radians, or rounding allows no better.
+    time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """
 
@@ -603,39 +567,38 @@ def uniformize(
 ) -> Uniformization:
     """Hyperbolic metric of a mesh, in the Poincaré disk.
 
-    target_curvature: The curvature at the vertices, beyond the constant -1 of the triangles.
-        Hyperbolic metric: none, for surfaces of negative Euler characteristic.
+    target_curvature: The curvature at the vertices, in addition to the constant -1 of the
+        triangles. Hyperbolic metric: none, for surfaces of negative Euler characteristic.
     cone_angle: The sum of the angles at each selected vertex, for 'Cones at selected vertices'.
-        360 is no cone.
-    output_triangulation: Common refinement: faces are divided where the flow's edges cross
-        them, so that the map is exact on every piece.
-    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
-        (the 99th percentile over the faces, and more).
+        360: not a cone.
+    output_triangulation: Common refinement adds vertices where edges of the solver cross those
+        of the mesh, so that the map is exact on every piece.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
     flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
     universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
-        copies round it, which tile the disk. 0: no layer.
+        copies around it, which tile the disk. 0: no layer.
     generator_axes: Add a layer with the axes of the canonical generators of the Fuchsian group,
         as edges. On the surface they are closed geodesics.
     canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
-        edges. Its sides are geodesics that the canonical generators pair.
-    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
-        Crease Edges'), or round selected faces.
-    free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
-        inside only. Off: the target holds on the boundary too.
-    method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
-        with an error; the mesh is never changed.
-    finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
-    join_vertices: Vertices that lie on each other along edges are one for the map, as formats
-        split them for normals and texture coordinates; the mesh keeps them. Automatic: where
-        faces share next to no vertices. Solids that touch and double-sided faces stay apart.
-    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
-        colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
-    report: A report of the run: a page with diagrams and its data beside it (.html), or the
-        data alone (.csv). Empty: no report.
-    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
-        radians, or at the floor that rounding sets.
-    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+        edges. The canonical generators pair its sides, which are geodesics.
+    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
+        edges or the outline of the selected faces.
+    free_boundary: The circles at boundary vertices keep their radii, and the target holds at
+        interior vertices only. Off: the target holds everywhere.
+    method: What happens when a triangle degenerates during the solve: edges flip inside the
+        solver (recommended), or the run fails.
+    finish: After the solve, repair flipped faces. Needs the method 'Intrinsic flips'.
+    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
+        them. Automatic: only if faces share almost no vertices.
+    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
+        new UVs. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
+        the old textures is kept.
+    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
+        Empty: no report.
+    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
+        radians, or rounding allows no better.
+    time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """

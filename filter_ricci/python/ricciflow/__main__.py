@@ -69,7 +69,7 @@ class Parser(argparse.ArgumentParser):
 def count(text):
     """Reads a whole number from 1."""
     if not text.isdigit() or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from 1")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
     return int(text)
 
 

@@ -104,7 +104,7 @@ def write_record(path, record):
 
 def clear(path):
     """Removes a record and what the run wrote under the mesh's name, not a texture that others show
-    too. The record goes first: files without some of theirs must not pass for a result."""
+    too. The record is removed first: files without some of theirs must not pass for a result."""
     folder, name = os.path.split(path.removesuffix("json"))
     files = read_record(path).get("files", ())
     for file in (name + "json", *(file for file in files if file.startswith(name))):

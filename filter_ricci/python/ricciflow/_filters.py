@@ -66,7 +66,7 @@ def choice(text, names):
     for number, name in enumerate(names):
         if text in (number, str(number)) or str(text).lower() == name.lower():
             return name
-    raise ValueError(f"{text!r} is no choice: {nearest(str(text), names)}")
+    raise ValueError(f"{text!r} is not a choice: {nearest(str(text), names)}")
 
 
 def _file(value):

@@ -148,14 +148,14 @@ def run(number, parameters, arrays, pictures, texts, listener):
     """
     log, warnings = [], []
 
-    def hear(_, fraction, text):
+    def receive(_, fraction, text):
         text = text.decode(errors="replace")
         if fraction >= 0.0:
             return listener(fraction, text) is not False
         (warnings if fraction == WARNING else log).append(text)
         return True
 
-    callback = _LISTENER(hear)
+    callback = _LISTENER(receive)
     with _Run(number) as one:
         for name, value in parameters.items():
             one.call("set_parameter", name.encode(), _as_text(value).encode("utf-8", "surrogateescape"))

@@ -107,14 +107,14 @@ def _run_plugin(number, mesh_set, parameters, tell):
     log, messages = [], []
 
     def run(listener):
-        def hear(percent, text):
+        def receive(percent, text):
             text = text.decode(errors="replace")
             if percent >= 0:
                 return listener(percent / 100, text) is not False
             (messages if percent == WARNING else log).append(text)
             return True
 
-        callback = _LISTENER(hear)
+        callback = _LISTENER(receive)
         _listen(callback)
         try:
             return apply(mesh_set, DESCRIPTIONS[number]["python_name"], **parameters)

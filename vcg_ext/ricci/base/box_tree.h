@@ -59,7 +59,7 @@ public:
 		}
 	}
 
-	/// Calls visit(i) for each box that contains \p p, its border included, but for those in nodes for
+	/// Calls visit(i) for each box that contains \p p, its border included, except for those in nodes for
 	/// which isOutside(node).
 	template<class Visit, class IsOutside>
 	void boxesAround(const Point2& p, const Visit& visit, const IsOutside& isOutside) const

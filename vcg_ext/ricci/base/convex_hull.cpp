@@ -17,7 +17,7 @@ namespace ricci {
 namespace {
 
 /// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
-/// tell: they are no corners of the convex hull.
+/// tell: they are not corners of the convex hull.
 void dropInside(std::vector<Point2>& points)
 {
 	static constexpr std::array<Point2, 8> directions{

@@ -81,7 +81,7 @@ std::string words(const InvalidOption& e)
 		return "The packer gave " + number(e.value) + " places for " + std::to_string(e.count) +
 			   " boxes";
 	case InvalidOption::Epsilon:
-		return "The curvature error asked for must be greater than 0 radians, not " +
+		return "The requested curvature error must be greater than 0 radians, not " +
 			   number(e.value);
 	case InvalidOption::ConeCount:
 		return "The number of cones must be 0 or more, not " + number(e.value);
@@ -92,7 +92,7 @@ std::string words(const InvalidOption& e)
 		return "The angle of cones must be finite and greater than 0, not " + number(e.value) +
 			   " radians";
 	case InvalidOption::SeamHiding:
-		return "The hiding of seams must be between 0 and 1, not " + number(e.value);
+		return "Seam hiding must be between 0 and 1, not " + number(e.value);
 	case InvalidOption::ChartMargin:
 		return "The margin between charts must be between 0 and " + number(e.bound) + ", not " +
 			   number(e.value);
@@ -100,11 +100,11 @@ std::string words(const InvalidOption& e)
 		return "A margin of " + number(e.value) + " leaves no room for " + std::to_string(e.count) +
 			   " charts";
 	case InvalidOption::WithoutFlips:
-		return "The common refinement and capped holes belong to intrinsic flips";
+		return "The common refinement and capped holes need intrinsic flips";
 	case InvalidOption::WithoutPositions:
-		return "Corners of a rectangle that nobody chose, edge swaps, the common refinement, "
+		return "Automatic corners of a rectangle, edge swaps, the common refinement, "
 			   "hidden seams, quarter "
-			   "turns and the sphere need positions, but the surface is given by lengths";
+			   "turns and the sphere need positions, but the surface is given by edge lengths";
 	case InvalidOption::HyperbolicMethod:
 		return "The hyperbolic flow has no edge swaps and no Thurston packing";
 	case InvalidOption::NotADisk:
@@ -125,18 +125,18 @@ std::string words(const InvalidOption& e)
 		return "Cones at selected vertices need selected vertices, but none is selected";
 	case InvalidOption::TooFewCones:
 		return "The surface needs at least " + number(e.bound) + " placed cones, but " +
-			   number(e.value) + " are asked for";
+			   number(e.value) + " were requested";
 	case InvalidOption::TooFewVertices:
 		return "The surface has " + std::to_string(e.count) + " interior vertices, too few for " +
 			   number(e.bound) + " cones";
 	case InvalidOption::SphereOfComponents:
-		return "The map to the sphere takes one closed surface of genus 0, but the mesh has " +
+		return "The map to the sphere needs one closed surface of genus 0, but the mesh has " +
 			   std::to_string(e.count) + " components";
 	case InvalidOption::NotASphere:
-		return "The map to the sphere takes a closed surface of genus 0, but the surface is " +
+		return "The map to the sphere needs a closed surface of genus 0, but the surface is " +
 			   e.surface.name();
 	case InvalidOption::NoMap:
-		return "the map that is to be kept has no coordinates for " + std::to_string(e.count) +
+		return "The map to be kept has no coordinates for " + std::to_string(e.count) +
 			   (e.count == 1 ? " face" : " faces");
 	case InvalidOption::CoverTooLarge:
 		return number(e.value) + " rings of the universal cover would need more than " +
@@ -213,8 +213,8 @@ std::string words(const NotConverged& e)
 			   numberText(e.value, 3) + " radians";
 	case NotConverged::FlatTriangles:
 		return some(e.count, "triangle is", "triangles are") +
-			   " flat at the end of the flow: the curvature asked for is the limit of what these "
-			   "triangles reach";
+			   " flat at the end of the flow: the target curvature is the limit of what these "
+			   "triangles can reach";
 	case NotConverged::SplitsUsedUp:
 		return "Triangles on the boundary kept breaking after " + n + " boundary edges were split";
 	case NotConverged::NoCut:

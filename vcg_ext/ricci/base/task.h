@@ -126,7 +126,7 @@ private:
 	double m_outerMemoryLimit;
 };
 
-/// What \p action() returns. An error is no result, but is logged; a stop of the run is a stop.
+/// What \p action() returns. An error is not a result, but is logged; a stop of the run is a stop.
 /// \param otherwise what is done without the result, for the log
 /// \throw Stopped
 template<class Action>

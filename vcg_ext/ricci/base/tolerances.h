@@ -125,7 +125,7 @@ constexpr double kMollification = 1e-5;
 
 /// A boundary loop no longer than this share of the square root of the surface's area is a short hole: of the
 /// surface it takes less than a thousandth, which no map misses, while its seam, and flat metrics round a point
-/// that is no cone of the shape, are as long and as distorted as those of a large hole. A vertex is missing from
+/// that is not a cone of the shape, are as long and as distorted as those of a large hole. A vertex is missing from
 /// some 8000 faces or more then; in a coarser mesh its hole is a feature. With many handles seams pass everywhere
 /// and holes cost little: short is divided by the Euler characteristic.
 constexpr double kShortHole = 0.1;

@@ -24,7 +24,7 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 /// parts.
 ///
 /// A fold may hide an overlap and then go to another part than the triangles that it hides: what appears
-/// in the parts is added to the pairs, and the chart is divided anew. A chart of so many sheets that not
+/// in the parts is added to the pairs, and the chart is divided again. A chart of so many sheets that not
 /// all pairs are listed is first halved, across its middle.
 /// \param overlaps of chart.corners()
 /// \return the triangles of each connected part, in increasing order, the parts by their first

@@ -34,7 +34,7 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 /// meet in many more pairs than there are triangles, as they do round a vertex of many long triangles,
 /// convex polygons round the tree's nodes are compared, too. So neither the chart's topology nor its
 /// boundary matters: holes, slits whose sides coincide, and parts that
-/// touch in points or along lines are no overlap; a cone of more than 2 pi at a boundary vertex is.
+/// touch in points or along lines are not an overlap; a cone of more than 2 pi at a boundary vertex is.
 ///
 /// Where triangles are flipped, the fold covers points three times although the chart goes on
 /// behind it. Folds are counted elsewhere (Report::flippedFaces). Here triangles that are not

@@ -16,7 +16,7 @@
 
 namespace ricci {
 
-/// The connected pieces of a graph that contain one of \p starts, but for the largest. They are
+/// The connected pieces of a graph that contain one of \p starts, except for the largest. They are
 /// searched from all starts at once, the one with the fewest nodes first, and only until one piece is
 /// left: the work depends on the small ones, or on how far the starts of one piece are apart.
 /// \param forNeighbours forNeighbours(i, visit) calls visit(j) for all neighbours of a node

@@ -23,7 +23,7 @@ constexpr std::ptrdiff_t kMaxPlaces = 8;
 /// that gives the motion.
 constexpr double kOneMotion = 1e-4;
 
-/// A part that has this share of the largest is no crumb: where there are very many parts, all are small.
+/// A part that has this share of the largest is not a crumb: where there are very many parts, all are small.
 constexpr double kCrumbOfLargest = 0.25;
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
@@ -61,8 +61,8 @@ public:
 			m_box.add(p);
 	}
 
-	/// Two parts at a time, along the longest border at which the one with fewer triangles has room beside
-	/// the other. Parts only grow: a border without room stays without.
+	/// Two parts at a time, along the longest border at which the one with fewer triangles fits beside
+	/// the other. Parts only grow: a border where they do not fit stays so.
 	void run()
 	{
 		for (const int f : m_chart.points.indices())

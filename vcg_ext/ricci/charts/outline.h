@@ -14,7 +14,7 @@ namespace ricci {
 /// The border of a chart: straight sides from one point to the next, the chart on the left of each.
 using Outline = std::vector<std::array<Point2, 2>>;
 
-/// The sides of a chart's triangles, each taken counter-clockwise, but for two that are joined and run
+/// The sides of a chart's triangles, each taken counter-clockwise, except for two that are joined and run
 /// opposite ways. A point off them is covered by as many triangles as they go round it.
 Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
 

@@ -343,7 +343,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns)
+void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	packCharts(map, options, turns);
 	if (std::min(turns, options.turns) == ChartTurns::None)
@@ -351,7 +351,7 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	const double area = map.mesh.area();
 	const auto worth = [&](const Parametrization& m) {
 		return std::log(m.report.occupancy) -
-			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
+			   kPackingPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
 	// What cuts and packing change, where the map is not the best.
 	std::optional<
@@ -364,7 +364,7 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		if (!best && map.report.occupancy > kEnoughCovered)
 			break;
 		isEnded = cuts == kMaxCuts;
-		const std::optional<ChartCut> cut = isEnded ? std::nullopt : findCutForRoom(map, area);
+		const std::optional<ChartCut> cut = isEnded ? std::nullopt : findCutForPacking(map, area);
 		if (!cut)
 			break;
 		if (!best)
@@ -394,8 +394,8 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	if (isEnded) {
 		++map.report.endedEarly;
 		logLine(
-			"Cuts for room have ended at " + std::to_string(kMaxCuts) +
-			": more of them could still cover a little more of the square.");
+			"Cuts for packing stopped at " + std::to_string(kMaxCuts) +
+			": more cuts could still fill slightly more of the square.");
 	}
 }
 

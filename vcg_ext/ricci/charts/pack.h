@@ -36,11 +36,11 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// in which they will be stored
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
-/// packCharts() into the unit square, with charts cut by findCutForRoom() as long as that is worth it
-/// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
+/// packCharts() into the unit square, with charts cut by findCutForPacking() as long as that is worth it
+/// (kPackingPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
 /// is cut.
 /// \throw what packCharts() does
-void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns);
+void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
 /// little is left to win.

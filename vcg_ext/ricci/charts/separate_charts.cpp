@@ -112,7 +112,7 @@ bool reflectFlipped(FlatMesh& chart)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
+/// The least cut across a chart's smallest bounding rectangle, except for \p from at either end, or across so much
 /// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
 /// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
 /// chart goes to the other part.
@@ -281,7 +281,7 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
-std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurface)
+std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onSurface)
 {
 	struct Wide
 	{
@@ -321,7 +321,7 @@ std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurf
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
 		if (cut &&
-			most >= kRoomPrice *
+			most >= kPackingPrice *
 						std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength))) {
 			cut->chart = static_cast<int>(wide.chart);
 			return cut;

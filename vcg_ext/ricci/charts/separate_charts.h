@@ -22,25 +22,25 @@ struct PartPlacing
 };
 
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
-/// parts of divideChart(), joined again by joinParts() across seams where they have room, each from the
+/// parts of divideChart(), joined again by joinParts() across seams where they fit, each from the
 /// origin. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
 /// length.
 void separateCharts(const PartPlacing& placing, Parametrization& map);
 
-/// Joins charts across seams where they have room (joinParts()): those whose sides are as long in the
+/// Joins charts across seams where they fit (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report
 /// counts the charts, not what the seams have shrunk by.
 /// \pre no chart overlaps itself
 void joinCharts(Parametrization& map);
 
 /// Seams may grow by one part for this many parts more of covered square: the worth of a map is
-/// log(occupancy) - kRoomPrice log(sqrt(area) + seams), up to a constant.
-constexpr double kRoomPrice = 2.3;
+/// log(occupancy) - kPackingPrice log(sqrt(area) + seams), up to a constant.
+constexpr double kPackingPrice = 2.3;
 
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Shares of a chart's length, at either end, that a cut for room leaves whole. The second is tried where the first
+/// Shares of a chart's length, at either end, that a cut for packing leaves whole. The second is tried where the first
 /// finds crumbs alone.
 constexpr double kCutFrom[] = {0.1, 0.4};
 
@@ -55,11 +55,11 @@ struct ChartCut
 
 /// Finds a cut of a chart in two: along the edges of least length on the surface, where those far from the middle
 /// count as longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room
-/// there, of those whose cut may be worth what it costs by kRoomPrice.
+/// there, of those whose cut may be worth what it costs by kPackingPrice.
 /// \param map packed
 /// \param onSurface area of the surface
 /// \return none where there is no such chart
-std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurface);
+std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onSurface);
 
 /// Makes a cut. The pieces are left as those of separateCharts(), in the report, too.
 void cutChart(const ChartCut& cut, bool turns, Parametrization& map);

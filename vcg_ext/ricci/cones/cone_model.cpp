@@ -21,7 +21,7 @@ constexpr double kBoundSlack = 1e-6;
 /// it is the difference of.
 constexpr double kMinPivot = 1e-8;
 
-/// An inverse that leaves a larger share of the right-hand side, refined once, is made anew.
+/// An inverse that leaves a larger share of the right-hand side, refined once, is computed again.
 constexpr double kMaxRest = 1e-11;
 
 /// By this share the diagonal of G is raised where that does not help, either: cones that do the same are told
@@ -248,7 +248,7 @@ void ConeModel::findMinimum()
 	fit.level = border() > 0 ? solution[0] : 0.0;
 }
 
-/// The solution of the fit without bounds, by an inverse that is made anew if it has lost digits, of a matrix
+/// The solution of the fit without bounds, by an inverse that is computed again if it has lost digits, of a matrix
 /// with kTwinShare if it loses them at once.
 Eigen::VectorXd ConeModel::unboundedMinimum()
 {
@@ -437,7 +437,7 @@ void ConeModel::restore(const State& state, const Array<Field>& fields)
 	m_gradient.resize(0);
 }
 
-/// Puts cone \p i to \p v, but for its field.
+/// Puts cone \p i to \p v, except for its field.
 void ConeModel::put(int i, Vertex v)
 {
 	leave(i);

@@ -90,7 +90,7 @@ public:
 	/// Takes cone \p i out; the curvatures of the others have to be fitted.
 	void remove(int i);
 
-	/// Sets how curvatures are rounded, and fits them anew if that is not how they were.
+	/// Sets how curvatures are rounded, and fits them again if that is not how they were.
 	void setRounding(ConeRounding rounding);
 
 	/// Puts the curvatures to their best values, with the sum fixed where it is and none above

@@ -44,7 +44,7 @@ struct PlacedCones
 /// takes.
 ///
 /// 1. Cones are added one by one where phi is farthest from its value at the cones that are there,
-///    and all curvatures fitted anew each time: orthogonal matching pursuit
+///    and all curvatures fitted again each time: orthogonal matching pursuit
 ///    [Pati Rezaiifar Krishnaprasad 1993].
 /// 2. Every cone in turn is taken out and put where it gains most, while that helps.
 /// 3. With ConeRounding::QuarterTurns the curvatures are multiples of pi / 2 from a search by single
@@ -71,7 +71,7 @@ placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequ
 PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request);
 
-/// Fits the curvatures of the cones that \p flow has reached anew, and adds cones, until areas are
+/// Fits again the curvatures of the cones that \p flow has reached, and adds cones, until areas are
 /// expected to change as \p request allows (areaExcess() at its distortion), or kMaxPlacedCones were
 /// added. The linear problem is that of the metric of \p flow, where it knows how far the first
 /// one was from the truth. Mean squares weigh the parts of the surface that have become very small or

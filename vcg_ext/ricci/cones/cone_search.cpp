@@ -16,7 +16,7 @@ namespace ricci {
 
 namespace {
 
-/// A cone this weak, in radians, is better placed anew than moved.
+/// A cone this weak, in radians, is better removed and placed again than moved.
 constexpr double kNegligible = 0.3;
 
 /// Places down the gradient that are tried, and rounds in which every cone may move.
@@ -78,7 +78,7 @@ double level(const ConeModel& model, const VertexVector& phi, Vertex freed)
 /// The vertices where one more cone gains most of all places around, those first where it gains most of
 /// all: where the gradient is farthest from its level. At least one if a vertex is left, \p count at most.
 /// \param phi the gradient
-/// \param freed is no cone there
+/// \param freed is not a cone there
 std::vector<Vertex> maxGains(
 	const ConeModel& model,
 	const ConeSites& sites,

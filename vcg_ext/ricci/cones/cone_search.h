@@ -12,7 +12,7 @@ namespace ricci {
 void startCones(ConeModel& model, const ConeSites& sites);
 
 /// Places one more cone where it gains most, and others where they gain most of all places around, \p
-/// count at most; then fits all curvatures anew (a step of orthogonal matching pursuit
+/// count at most; then fits all curvatures again (a step of orthogonal matching pursuit
 /// [Pati Rezaiifar Krishnaprasad 1993]).
 /// \return false if no vertex is left
 bool addCones(ConeModel& model, const ConeSites& sites, int count = 1);

@@ -25,7 +25,7 @@ public:
 	/// \param vertices cones may lie at vertices with a number below this; -1: at any
 	ConeSites(const EmbeddedSurface& surface, int vertices);
 
-	/// Some of the sites of \p fine, numbered anew. Two of them are joined where regions nearest to
+	/// Some of the sites of \p fine, renumbered. Two of them are joined where regions nearest to
 	/// them meet, by the shortest way through the two; the minimum spanning trees of shortest paths
 	/// stay the same [Mehlhorn 1988].
 	ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen);

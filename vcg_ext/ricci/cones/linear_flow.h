@@ -121,7 +121,7 @@ private:
 /// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
 /// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
 /// until the curvature of the surface gives factors u of the right size (overcorrection
-/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate.
+/// [Braess 1995]). They are those of the surface to some percent, except for a cone's own aggregate.
 /// \param whole of a LinearFlow, which need not be factorised
 /// \param vertices to take together until there are at most so many
 /// \param roots the vertices of \p whole; receives by aggregate the one from which it grew

@@ -31,7 +31,7 @@ std::vector<Vertex> selectedVertices(const VertexArray<char>& selected);
 /// \throw InvalidOption (NothingSelected) if there is none
 std::vector<Vertex> selectedCones(const VertexArray<char>& selected);
 
-/// Copies prescribed curvatures to the target. Values of the size of rounding are no cones and
+/// Copies prescribed curvatures to the target. Values of the size of rounding are not cones and
 /// become 0.
 /// \throw InadmissibleCurvature (NotFinite) if a value is NaN or infinite
 void setPrescribed(const TargetInput& input, Target& target);

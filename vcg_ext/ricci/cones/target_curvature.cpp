@@ -125,9 +125,8 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	if (!onBoundary)
 		freeTheBoundary(surface, target);
 	else
-		target.notes.push_back(
-			"Cones lie on the boundary, which is therefore prescribed: the choice of a free "
-			"boundary has no effect.");
+		target.notes.push_back("Cones lie on the boundary, which is therefore prescribed: the "
+							   "option of a free boundary has no effect.");
 }
 
 /// A free boundary takes whatever the curvature inside leaves of 2 pi chi: what it cannot take shows in the
@@ -298,7 +297,7 @@ void choosePlainOrCones(
 			Target withCones = target;
 			withCones.choice = goesBySpread
 								   ? "cones, because without them areas would spread by " +
-										 numberText(spread, 3) + ", more than was asked for"
+										 numberText(spread, 3) + ", more than allowed"
 								   : "cones, which are expected to lower the objective from " +
 										 numberText(costWithout, 3) + " to " + numberText(cost, 3);
 			withCones.notes.push_back("Cones: without them " + without + ".");
@@ -347,7 +346,7 @@ void setAutomatic(
 	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
 	else {
-		target.choice = "no cones, because of the surface's topology and the boundary asked for";
+		target.choice = "no cones, because of the topology and the requested boundary";
 		setPlain(surface, request, target);
 	}
 }
@@ -387,8 +386,7 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 						   target.used == TargetUsed::Rectangle;
 	if (isImplied && request.options.freeBoundary && !surface.topology.type.isClosed())
 		target.notes.push_back(
-			"The target prescribes the boundary: the choice of a free boundary has no effect on "
-			"it.");
+			"The target prescribes the boundary: the option of a free boundary has no effect.");
 	check(surface, target);
 	return target;
 }

@@ -391,7 +391,7 @@ VertexArray<double> exposure(
 		square += mass[v] * height[v] * height[v];
 	}
 	const double typical = std::sqrt(square / area);
-	// A sphere stands out everywhere alike; a plane not at all but for rounding.
+	// A sphere stands out everywhere alike; a plane not at all except for rounding.
 	if (typical > kTiny * std::sqrt(area))
 		for (const Vertex v : t.vertices())
 			result[v] = 0.5 * (1.0 + std::tanh(height[v] / typical));

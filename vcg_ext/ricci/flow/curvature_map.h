@@ -29,7 +29,7 @@ public:
 	/// Computes everything below at u + \p low: \p low is the part that the doubles of \p u cannot
 	/// hold (below their last place), or empty. Radii then are exact to their own last place, not
 	/// to that of u. A packing that does not exist at u (hyperbolic u >= 0, nested circles) gives
-	/// values that are not finite, or broken triangles; it is no error.
+	/// values that are not finite, or broken triangles; it is not an error.
 	/// \throw NotConverged (FlipsUsedUp) where rounding keeps flips from ending
 	virtual void evaluate(const VertexVector& u, const VertexVector& low) = 0;
 
@@ -185,8 +185,8 @@ private:
 class FactoredHessian
 {
 public:
-	/// \p fixed: 1 where u is no unknown. Where nothing is fixed and \p scaleInvariant, one row is
-	/// redundant: the first vertex is no unknown either.
+	/// \p fixed: 1 where u is not an unknown. Where nothing is fixed and \p scaleInvariant, one row is
+	/// redundant: the first vertex is not an unknown either.
 	/// \param mirror images of the vertices of a symmetric surface, or empty. A vertex and its image
 	/// share an unknown: where u is symmetric, so is Newton's step, and half the equations give it.
 	FactoredHessian(

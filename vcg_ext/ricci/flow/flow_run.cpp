@@ -371,7 +371,7 @@ NewtonResult FlowRun::solveOnCircle()
 		if (++solves > 1)
 			logLine(
 				"Solve " + std::to_string(solves) +
-				" for the circle: its angles follow the lengths that the boundary has now.");
+				" for the circle: its angles are updated to the present lengths of the boundary.");
 		for (std::size_t i = 0; i < angles.size(); ++i)
 			curvature[m_loop[i]] = copies * angles[i];
 		return m_solved = solveFor(epsilon);

@@ -33,7 +33,7 @@ constexpr double kDecrease = 1e-4;
 /// full step did, at the cost of one evaluation.
 constexpr int kPolishingSteps = 2;
 
-/// A minimum with broken triangles is no metric, and the energy is flat around it: where
+/// A minimum with broken triangles is not a metric, and the energy is flat around it: where
 /// |K - target| has not fallen by this factor in so many steps, steps are searched by slope, and where
 /// it has not after so many of those, the solve ends.
 constexpr double kStagnation = 0.9;
@@ -110,7 +110,7 @@ double NewtonSolver::residual(const VertexVector& target)
 		largest = std::max(largest, std::abs(m_gradient[v]));
 	}
 	if (m_gaugeFree) {
-		// By Gauss-Bonnet the gradient adds up to 0 but for the rounding of the target's sum, which
+		// By Gauss-Bonnet the gradient adds up to 0 except for the rounding of the target's sum, which
 		// the pinned vertex would have to bear alone.
 		m_gradient.array() -= m_gradient.mean();
 	}

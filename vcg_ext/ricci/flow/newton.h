@@ -56,7 +56,7 @@ class NewtonSolver
 {
 public:
 	/// Called at every accepted iterate; returns true if it changed the map (edge swaps), after
-	/// which the map is evaluated anew.
+	/// which the map is evaluated again.
 	using Surgeon = std::function<bool(CurvatureMap&)>;
 
 	/// \param map is evaluated by solve(); must live as long as the solver
@@ -88,7 +88,7 @@ public:
 	/// \param target K at each vertex, radians
 	/// \param report is called with the iteration number and the residual before each step; it may
 	/// throw to cancel
-	/// \return also where the target is not reached: lack of convergence is no error here
+	/// \return also where the target is not reached: lack of convergence is not an error here
 	/// \throw SolverFailed
 	NewtonResult solve(
 		VertexVector& u,

@@ -76,7 +76,8 @@ FlowResult runRicciFlow(
 		// The half is less conformal at the boundary, but it has the metric asked for.
 		if (!solved)
 			throw;
-		const std::string alone = "The surface alone is taken, less conformal at its boundary";
+		const std::string alone =
+			"The result without the double is used, less conformal at the boundary";
 		logLine(alone + ", because its double fails (" + error.what() + ").");
 		if (!isRough)
 			return run.result();

@@ -205,7 +205,7 @@ Matrix3 adjoint(const ExtendedIsometry& m)
 	Matrix3 columns;
 	const ExtendedIsometry back = m.inverse();
 	for (int k = 0; k < 3; ++k) {
-		// x is no isometry, but the product of these pairs is that of the matrices they stand for.
+		// x is not an isometry, but the product of these pairs is that of the matrices they stand for.
 		const ExtendedIsometry x{
 			{0.0, k == 0 ? 1.0 : 0.0}, {k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}};
 		const ExtendedIsometry image = m * x * back;

@@ -59,13 +59,13 @@ void closeRelation(
 /// and on closed surfaces, where the product is the identity, by conjugation with a letter, which
 /// takes another corner of the polygon to 0. The best move is taken while it lowers the condition by a
 /// tenth or more, which bounds their number by its logarithm. Moves multiply large isometries, so the
-/// relation is closed anew after each by closeRelation().
+/// relation is closed again after each by closeRelation().
 ///
 /// The condition is by how much [a1,b1] ... [ag,bg] may change, in units of the relative rounding of the
 /// letters: the sum of |p| |w| |q| over all letters w, where p is the product of the letters before w,
 /// q = p w, and |m| = |a| + |b| = exp(d / 2) for an isometry that moves 0 by d. The p are the corners of
 /// the canonical polygon, so this is large where the polygon reaches far out, as seen from 0. Where the
-/// product of the letters behind is q^-1, but for isometries of bounded size, this is the first order of
+/// product of the letters behind is q^-1, except for isometries of bounded size, this is the first order of
 /// the error.
 ///
 /// As many bases are tried, the first ones, as keeps the work independent of the genus: 32 up to genus
@@ -73,7 +73,7 @@ void closeRelation(
 /// \param peripheral the elements behind the handles in the relation
 /// \return nothing where each basis is left with a letter that moves 0 by more than
 /// kMaxGeneratorDistance, or the relation is beyond what numbers hold
-/// \pre all bases have the same number of handles; the relation holds but for rounding
+/// \pre all bases have the same number of handles; the relation holds except for rounding
 Handles
 bestConditioned(const std::vector<Handles>& bases, const std::vector<ExtendedIsometry>& peripheral);
 

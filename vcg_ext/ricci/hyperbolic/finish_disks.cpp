@@ -141,8 +141,8 @@ bool divideDisks(Parametrization& map)
 	if (endsEarly) {
 		++map.report.endedEarly;
 		logLine(
-			"The division of disks has ended at " + std::to_string(disks) +
-			": triangles are left that floats cannot hold.");
+			"The division of disks stopped at " + std::to_string(disks) +
+			": some triangles are still too small for floats.");
 	}
 	if (disks == map.charts.size())
 		return false;
@@ -269,8 +269,8 @@ bool finishDisks(const DiskFinish& finish, Parametrization& map)
 	}
 	if (map.charts.size() > asFound.charts.size())
 		logLine(
-			"Floats cannot hold the disks as they are: they are divided into " +
-			std::to_string(map.charts.size()) + ", each with its own middle.");
+			"The disks are too wide for floats: they were divided into " +
+			std::to_string(map.charts.size()) + ", each with its own centre.");
 	return isChanged;
 }
 

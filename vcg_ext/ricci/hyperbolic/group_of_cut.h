@@ -11,7 +11,7 @@
 
 namespace ricci {
 
-/// Gives all edges of an arc of the cut the most exact side pairing among them: but for rounding an
+/// Gives all edges of an arc of the cut the most exact side pairing among them: except for rounding an
 /// arc has one. Arcs end where the cut branches, at cones and at the boundary.
 /// \param pairing [edge] of the layout, for the edges of the cut
 EdgeArray<SidePairing>

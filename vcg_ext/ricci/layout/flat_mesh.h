@@ -97,7 +97,7 @@ struct Seams
 };
 Seams seams(const FlatMesh& mesh);
 
-/// Numbers the points anew: two corners are one point if a chain of triangles with joined sides connects
+/// Renumbers the points: two corners are one point if a chain of triangles with joined sides connects
 /// them, at the place of the first of them. Points are in the order of their first corners.
 /// \param place place(corner)
 /// \param isJoined isJoined(side, across) for the two sides of an edge

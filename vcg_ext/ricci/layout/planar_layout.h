@@ -61,7 +61,7 @@ loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArr
 /// [Dijkstra 1959], which also keeps the number of triangles on the way low. The order is
 /// deterministic.
 /// \param lengths positive
-/// \return for each triangle that can be reached, but for the root, the halfedge of it that is
+/// \return for each triangle that can be reached, except for the root, the halfedge of it that is
 /// entered first
 std::vector<Halfedge> layoutTree(
 	const Triangulation& t,

@@ -258,7 +258,7 @@ public:
 			for (int v : {closing.first, closing.second.vertex})
 				for (; v != root; v = m_places[v].from.vertex)
 					best.sides.push_back(m_places[v].from.side);
-			// What both ways to the root share is no part of the loop.
+			// What both ways to the root share is not a part of the loop.
 			std::sort(best.sides.begin(), best.sides.end());
 			std::vector<Corner> once;
 			for (const Corner s : best.sides)

@@ -12,7 +12,7 @@
 
 namespace ricci {
 
-/// A mesh cut open where it is no oriented manifold, and along the seams that its caller wants. Its
+/// A mesh cut open where it is not an oriented manifold, and along the seams that its caller wants. Its
 /// faces have the order of the input, those without area left out; a vertex keeps its number, and
 /// copies of it follow after all vertices. Of a mesh that needs no cut it is a copy with the same
 /// numbers.

@@ -40,35 +40,35 @@ void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std
 		" left out.");
 	note(
 		opened.joinedEdges,
-		"edge whose faces had vertices of their own there was",
-		"edges whose faces had vertices of their own there were",
-		" joined: the vertices stay as they are, the map goes on across.");
+		"edge whose faces did not share vertices was",
+		"edges whose faces did not share vertices were",
+		" joined: the map continues there, and the vertices stay separate.");
 	note(
 		opened.piecesApart,
-		"piece could be joined",
-		"pieces could be joined",
-		" to others, on which they lie along edges with vertices of their own.");
+		"piece touches others along edges without sharing vertices and",
+		"pieces touch others along edges without sharing vertices and",
+		" could be joined.");
 	note(
 		std::count(opened.reversed.begin(), opened.reversed.end(), 1),
 		"face was",
 		"faces were",
-		" oriented against the rest of the surface and counted as inverted.");
+		" turned over for the map: inverted winding (inconsistent normals).");
 	note(
 		opened.duplicateFaces,
-		"face has the vertices of another and is a sheet of its",
-		"faces have the vertices of another and are sheets of their",
-		" own.");
+		"face duplicates another and is a separate sheet",
+		"faces duplicate others and are separate sheets",
+		".");
 	note(
 		opened.cutEdges,
-		"edge of more than two faces was",
-		"edges of more than two faces were",
-		" cut: sheets go on where they are smoothest.");
-	note(opened.seamEdges, "edge is a seam", "edges are seams", ", as chosen.");
+		"edge with more than two faces was",
+		"edges with more than two faces were",
+		" cut: the sheets continue where they are smoothest.");
+	note(opened.seamEdges, "edge is a chosen seam", "edges are chosen seams", ".");
 	note(
 		opened.seamEdgesAdded,
-		"seam of one edge alone goes on along one more",
-		"seams of one edge alone go on along one more",
-		": without it, nothing would come apart there.");
+		"seam of a single edge was",
+		"seams of a single edge were",
+		" extended by another edge, because a single edge does not open.");
 	note(
 		opened.oneSidedComponents,
 		"one-sided component was",
@@ -78,11 +78,11 @@ void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std
 		opened.splitVertices,
 		"vertex has",
 		"vertices have",
-		" more than one fan of faces, each with a place of its own in the map.");
+		" more than one triangle fan, each with its own place in the map.");
 	note(
 		static_cast<std::ptrdiff_t>(opened.degenerate.size()),
-		"face has no area and is drawn as the line or the point that it is",
-		"faces have no area and are drawn as the lines or the points that they are",
+		"face has no area and is drawn as a line or a point",
+		"faces have no area and are drawn as lines or points",
 		".");
 }
 

@@ -23,7 +23,7 @@ namespace {
 /// stays below n pi however small its circle is, and tangent edges cannot be flipped.
 constexpr double kRadiusShare = 0.5;
 
-/// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
+/// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start again.
 constexpr double kShrink = 0.5;
 
 /// I - 1 on each edge, between \p lowest and \p highest.
@@ -230,7 +230,7 @@ Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths)
 			isLonger |= lengths[e] > before;
 		}
 		if (!isLonger)
-			break; // lengths that are no numbers
+			break; // lengths that are not numbers
 	}
 	for (const Edge e : t.edges())
 		if (lengths[e] > original[e])

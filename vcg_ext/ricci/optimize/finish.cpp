@@ -78,7 +78,7 @@ FinishCounts finishInPlane(
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)
 			logLine(
-				"The repair of flipped faces has ended at the bound on its work, with " +
+				"The repair of flipped faces stopped at its work limit, with " +
 				std::to_string(result.left) + " left.");
 		return counts;
 	};
@@ -89,8 +89,7 @@ FinishCounts finishInPlane(
 								? leastStretch(flat).endedEarly
 								: leastDistortion(flat, cones, freeBoundary, mayCut).endedEarly;
 	if (endedEarly)
-		logLine("The finish has ended at the bound on its steps: the map could still become a "
-				"little better.");
+		logLine("The finish stopped at its step limit: the map could still be slightly better.");
 	counts.endedEarly += endedEarly;
 	return counts;
 }

@@ -31,7 +31,7 @@ constexpr double kUncountedStiffness = 1e-4;
 /// See MeanDistortion::stiffness().
 constexpr double kMaxBend = 4.0;
 
-/// As in orientation(): a determinant above this share of its terms has the right sign, but for
+/// As in orientation(): a determinant above this share of its terms has the right sign, except for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
 

@@ -49,7 +49,7 @@ struct Validity
 	}
 
 private:
-	/// The point as it is stored, in steps if there are any: decimal fractions are no doubles.
+	/// The point as it is stored, in steps if there are any: decimal fractions are not doubles.
 	Point2 inSteps(const Point2& p) const
 	{
 		Point2 rounded = inMemory(p);

@@ -181,7 +181,7 @@ void joinSeam(
 	double gap = 0.0;
 	for (const auto& [a, b] : pairs)
 		gap = std::max(gap, std::abs(b - turn * a));
-	const bool fits = gap <= maxGap; // not if the turn is no number
+	const bool fits = gap <= maxGap; // not if the turn is not a number
 	for (std::size_t i = ends; i < copies.size(); ++i) {
 		const auto [left, right] = copies[i];
 		groups.group[right] = left;

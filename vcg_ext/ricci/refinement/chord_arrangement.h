@@ -12,7 +12,7 @@ namespace ricci {
 /// The faces into which two families of straight chords divide a convex polygon. No two chords of
 /// one family cross, though they may share ends; a chord of the one crosses a chord of the other at
 /// most once. All that is needed are the places where chords end: on the border, counted
-/// counter-clockwise. Time and memory are in proportion to the places and crossings, but for the
+/// counter-clockwise. Time and memory are in proportion to the places and crossings, except for the
 /// logarithms of sorting; the arrays are kept from one polygon to the next.
 ///
 ///          4-----3          0 .. 5: places

@@ -328,7 +328,7 @@ void OverlayPieces::findLinks()
 		}
 }
 
-/// Hands known faces on to neighbours whose face is not known, across the sides that are no border
+/// Hands known faces on to neighbours whose face is not known, across the sides that are not a border
 /// between faces.
 template<class IsBorder>
 void OverlayPieces::spread(Array<Face>& face, const IsBorder& isBorder) const

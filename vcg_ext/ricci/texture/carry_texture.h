@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder texture: draws an old picture anew for other coordinates. It knows flat meshes and pictures, and no
+// The folder texture: bakes an old texture for other coordinates. It knows flat meshes and pictures, and no
 // flow.
-// A picture that old texture coordinates show, drawn anew for other ones.
+// A picture that old texture coordinates show, baked for new ones.
 #ifndef RICCI_CARRY_TEXTURE_H
 #define RICCI_CARRY_TEXTURE_H
 

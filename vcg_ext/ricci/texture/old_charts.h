@@ -16,7 +16,7 @@ namespace ricci {
 std::vector<int> oldCharts(const std::vector<TexturedFace>& faces);
 
 /// Old coordinates in texels, moved by whole pictures so that they start in the first one; 0 where they
-/// are no numbers.
+/// are not numbers.
 Triangle2 oldTexels(const TexturedFace& face, int width, int height);
 
 /// Which chart each texel of one old picture belongs to: that in which its middle lies.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF 2.0 and GLB. Written again, vertices are split at the new seams; every attribute follows bit by bit.
 
-The JSON stays as it is but for primitives that get coordinates. What they used alone gives its number to
+The JSON stays as it is except for primitives that get coordinates. What they used alone gives its number to
 what takes its place, so that nothing else is renumbered.
 """
 
@@ -72,7 +72,7 @@ class GltfFile(MeshFile):
             data, body = self._chunks(data)
         self.json = json.loads(data.decode('utf-8-sig'))
         if not str(self.json.get('asset', {}).get('version', '')).startswith('2'):
-            raise FileError(f'{self.path.name} is no glTF 2.0')
+            raise FileError(f'{self.path.name} is not glTF 2.0')
         self._check_extensions()
         self._buffers = [self._buffer(i, b, body) for i, b in enumerate(self.json.get('buffers', []))]
         self._read_pictures()
@@ -181,7 +181,7 @@ class GltfFile(MeshFile):
         if 'indices' in primitive:
             index = self._values(primitive['indices']).ravel()
             if index.dtype.kind not in 'iu':
-                raise FileError(f'{self.path.name} is damaged: indices that are no whole numbers')
+                raise FileError(f'{self.path.name} is damaged: indices that are not whole numbers')
             if len(index) and int(index.max()) >= count:
                 raise FileError(
                     f'{self.path.name}: {counted(int((index >= count).sum()), "corner")} of faces name a '
@@ -470,15 +470,15 @@ class _Writer:
         self._free_accessors, self._free_views = self._given_up()
 
     def _given_up(self):
-        """Accessors and views that only primitives use which are written anew."""
+        """Accessors and views that only primitives use that are rewritten."""
         data = self.source.json
         if not all(n.startswith(_PLAIN) for n in data.get('extensionsUsed', [])):
             return [], []  # an extension may refer to any
-        anew = {(p.mesh, p.number) for p in self.source._primitives if len(p.triangles)}
+        rewritten = {(p.mesh, p.number) for p in self.source._primitives if len(p.triangles)}
         mine, others = set(), set()
         for m, mesh in enumerate(data.get('meshes', [])):
             for n, primitive in enumerate(mesh['primitives']):
-                used = mine if (m, n) in anew else others
+                used = mine if (m, n) in rewritten else others
                 for attributes in [primitive['attributes'], *primitive.get('targets', [])]:
                     used.update(attributes.values())
                 if 'indices' in primitive:

@@ -64,7 +64,7 @@ class ObjFile(MeshFile):
             except ValueError:
                 good = False
             if not good:
-                raise FileError(f'{self.path.name}: line {line + 1} is no {what}: '
+                raise FileError(f'{self.path.name}: line {line + 1} is not a valid {what}: '
                                 f'{self._lines.shown(line)}')
         raise FileError(f'{self.path.name}: a {what} cannot be read')
 
@@ -156,7 +156,7 @@ class ObjFile(MeshFile):
         for line in self._f:
             words = self._lines.words(line)[1:]
             if not all(good.fullmatch(w) for w in words):
-                raise FileError(f'{self.path.name}: line {line + 1} is no face: '
+                raise FileError(f'{self.path.name}: line {line + 1} is not a valid face: '
                                 f'{self._lines.shown(line)}')
         raise FileError(f'{self.path.name}: the faces cannot be read')
 
@@ -277,7 +277,7 @@ class ObjFile(MeshFile):
         return messages
 
     def _numbers_of_polylines(self):
-        """(begin, end) of what lines `l` say of the old coordinates, which are no more."""
+        """(begin, end) of what lines `l` say of the old coordinates, which are gone."""
         return [
             (self._lines.begin[line] + match.start(), self._lines.begin[line] + match.end())
             for line in self._lines.beginning(b'l')

@@ -59,7 +59,7 @@ class OffFile(MeshFile):
         if len(values) != count.sum():
             values = numbers(content)
             if len(values) != count.sum():
-                self._fail('a face has a word that is no number')
+                self._fail('a face has a word that is not a number')
         if faces and count.min() == count.max() == 4 and (values[::4] == 3).all():
             self.set_polygons(values.reshape(-1, 4)[:, 1:])
             return True

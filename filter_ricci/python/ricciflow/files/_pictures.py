@@ -43,7 +43,7 @@ def decode(data, name):
         except ImportError:
             if data[:8] == b'\x89PNG\r\n\x1a\n':
                 return _decode_png(data)
-            raise FileError(f'the picture {name} is no PNG: to read it, install Pillow '
+            raise FileError(f'the picture {name} is not a PNG: to read it, install Pillow '
                             '(pip install Pillow)') from None
         with Image.open(io.BytesIO(data)) as image:
             if image.width * image.height > MOST_TEXELS:

@@ -230,7 +230,7 @@ class PlyFile(MeshFile):
         place = np.cumsum(count) - count
         if len(values) != count.sum():
             bad = int(np.searchsorted(np.cumsum(count), len(values), 'right'))
-            self._fail(f'a row of {element.name} has a word that is no number: '
+            self._fail(f'a row of {element.name} has a word that is not a number: '
                        f'{self._data[lines[used[bad]]:lines[used[bad] + 1]][:60].decode("latin1").strip()}')
         end = place + count
         for name, (t, l) in kinds:

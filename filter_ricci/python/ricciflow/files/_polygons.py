@@ -69,7 +69,7 @@ _FLAT = 1e-12
 
 
 def _clip_ears(points):
-    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear goes first."""
+    """(n - 2, 3) corners of the triangles of one polygon; the roundest ear is cut first."""
     xy = points.tolist()
     n = len(xy)
     before, after = [(i - 1) % n for i in range(n)], [(i + 1) % n for i in range(n)]

@@ -25,7 +25,7 @@ class StlFile(MeshFile):
         elif text:
             points = self._read_text(data)
         else:
-            raise FileError(f'{self.path.name} is no STL file')
+            raise FileError(f'{self.path.name} is not an STL file')
         self.vertices = points.reshape(-1, 3).astype(np.float64)
         self.set_polygons(np.arange(len(self.vertices), dtype=np.int32).reshape(-1, 3))
 
@@ -37,6 +37,6 @@ class StlFile(MeshFile):
         if len(values) != 3 * len(found) or len(found) % 3:
             for line in found:
                 if len(numbers(lines.rest(line, 6))) != 3:
-                    raise FileError(f'{self.path.name}: line {line + 1} is no vertex: {lines.shown(line)}')
+                    raise FileError(f'{self.path.name}: line {line + 1} is not a valid vertex: {lines.shown(line)}')
             raise FileError(f'{self.path.name} ends within a triangle')
         return values

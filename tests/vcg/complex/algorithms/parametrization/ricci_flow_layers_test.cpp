@@ -105,7 +105,7 @@ TYPED_TEST(UniversalCover, LayersAreBuiltUnderTheTaskOfTheRun)
 		layer.Clear();
 		Listener impatient(1);
 		EXPECT_THROW(
-			heard(
+			withListener(
 				impatient,
 				[&] {
 					build();

@@ -286,7 +286,7 @@ private:
 		return r;
 	}
 
-	/// The attribute of that name, made anew if there is one of another type.
+	/// The attribute of that name, replaced if there is one of another type.
 	static VertexAttribute Attribute(MeshType& m, const char* name)
 	{
 		VertexAttribute found =
