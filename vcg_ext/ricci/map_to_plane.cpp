@@ -25,9 +25,9 @@ constexpr double kMaxCurvatureBetween = 0.25;
 constexpr double kPoorCost = 6.0;
 
 /// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
-/// spread of areas below these are tried: the linear model promises too much where scales differ much. The first of
+/// spread of areas below these are tried: the linear model promises too much where scales differ much. The last of
 /// them is tried where the map costs so much more than was expected, mostly for charts that cover themselves.
-constexpr double kSpreadsInstead[] = {0.25, 0.5};
+constexpr double kSpreadsInstead[] = {0.5, 0.25};
 constexpr double kBrokenPromise = 0.05;
 
 /// Whether Automatic may do without a flow of a whole component: nothing but the default has been asked for that it
@@ -86,11 +86,14 @@ Parametrization withOtherCones(
 	if (map.report.targetUsed != TargetUsed::PlacedCones ||
 		goalOf(options.cones) != ConeGoal::LeastCost)
 		return map;
+	bool isTried = false;
 	for (const double spread : kSpreadsInstead) {
 		const double cost = std::min(costOf(map).total(), alternative);
-		const bool isFirst = spread == kSpreadsInstead[0];
-		if (cost <= kPoorCost && !(isFirst && cost > expected + kBrokenPromise))
-			break;
+		const bool isBroken =
+			!isTried && spread == kSpreadsInstead[1] && cost > expected + kBrokenPromise;
+		if (cost <= kPoorCost && !isBroken)
+			continue;
+		isTried = true;
 		Options other = options;
 		other.cones.distortion = spread;
 		auto next = attempt("the map before it stays", [&] {
