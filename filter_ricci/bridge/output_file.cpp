@@ -77,7 +77,7 @@ std::string OutputFile::whyNotWritable()
 	if (fs::is_directory(status))
 		return "it is a folder";
 	if (fs::exists(status) && !fs::is_regular_file(status))
-		return "it is no file";
+		return "it is not a file";
 	errno = 0;
 	if (fs::exists(status)) { // a folder may let files be replaced that may not be written
 		std::FILE* const present = opened(m_path, "ab");

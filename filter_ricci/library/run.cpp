@@ -38,7 +38,7 @@ std::size_t bytesOf(int32_t type)
 	case RICCI_FLOAT64:
 		return 8;
 	default:
-		throw Misuse("There is no type of arrays " + std::to_string(type) + ": see ricci_type.");
+		throw Misuse("There is no array type " + std::to_string(type) + ": see ricci_type.");
 	}
 }
 
@@ -71,11 +71,11 @@ LibraryRun::Array copied(const std::string& name, const ricci_array& given)
 	if (!isShape)
 		throw Misuse(
 			"The array " + name +
-			" has no shape that arrays have: up to 3 dimensions, each of 0 to " +
+			" has an invalid shape: arrays have up to 3 dimensions, each of 0 to " +
 			std::to_string(kMaxLength) + " entries.");
 	if (bytes > 0.0 && given.data == nullptr)
 		throw Misuse(
-			"The array " + name + " is null, but " + shapeText(given) + " entries are wanted.");
+			"The array " + name + " is null, but " + shapeText(given) + " entries are expected.");
 	if (bytes > kMaxBytes)
 		throw std::bad_alloc();
 	const auto* const data = static_cast<const unsigned char*>(given.data);

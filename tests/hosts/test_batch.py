@@ -366,7 +366,7 @@ class Batch(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         printed, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, printed + errors)
-        self.assertIn("goes on", errors)
+        self.assertIn("to continue", errors)
         done = self.times()
         self.assertLess(len(done), COUNT, "the batch was over already")
         with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:

@@ -237,7 +237,7 @@ def folder(parser, options):
     shown.close()
     failures = _batch.summarize(out, stems)
     if interrupted:
-        print("Interrupted: the same command goes on from here.", file=sys.stderr)
+        print("Interrupted: run the same command again to continue.", file=sys.stderr)
         return 130
     if not options.quiet:
         print(f"Results: {os.path.join(options.out, 'results.csv')}; without a result: "

@@ -64,7 +64,7 @@ def mark_of(mesh, common):
 def stems(names, source, out, ending):
     """For each mesh the name that its files in OUT begin with: its own without the ending, or the whole
     of it where a result would replace it, or another mesh has a name that begins so, or a file
-    that is no record of ours is in the place of one."""
+    that is not a record of ours is in the place of one."""
     taken = collections.Counter()
     for name in map(os.path.normcase, names):
         folder, file = os.path.split(name)

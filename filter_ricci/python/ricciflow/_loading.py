@@ -56,7 +56,7 @@ def _without_alpha(picture):
 
 
 def checked_arrays(vertices, faces):
-    """Vertices (V, 3) float64 and faces (F, 3) int32. What is no such array is a TypeError or a
+    """Vertices (V, 3) float64 and faces (F, 3) int32. Anything else is a TypeError or a
     ValueError."""
     try:
         vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)

@@ -47,7 +47,7 @@ LABELS = {"flat": "Flat", "disk": "Disk", "sphere": "Sphere of", "cover": "Unive
 
 
 class Refused(_errors.Refused, pymeshlab.PyMeshLabException):
-    """The mesh of a MeshSet is refused; the text says why. It is unchanged, but for what
+    """The mesh of a MeshSet is refused; the text says why. It is unchanged, except for what
     flatten() and uniformize() were given with it: `selected` may stay as the selection of its
     vertices, `curvature` as their quality."""
 
@@ -159,7 +159,7 @@ class _Texture:
 
 
 def given(mesh):
-    """What a run may read of a Mesh, but for selected edges and the number of a face's texture, which
+    """What a run may read of a Mesh, except for selected edges and the number of a face's texture, which
     PyMeshLab does not give to programs."""
     if not mesh.is_compact():
         mesh.compact()

@@ -140,7 +140,7 @@ Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<FaceLoop
 /// +-1 are taken out, and the others made orthogonal to them, again and again. Such two are always
 /// found: the loops cross like chords of a circle, and a skew-symmetric matrix of such crossings has no
 /// principal minors but 0 and 1, so that the products stay 0 and +-1.
-/// \throw InternalError if \p wedge is no such matrix
+/// \throw InternalError unless \p wedge is such a matrix
 Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 {
 	const Eigen::Index n = wedge.rows(), genus = n / 2;

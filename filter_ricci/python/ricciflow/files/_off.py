@@ -21,11 +21,11 @@ class OffFile(MeshFile):
         head = _HEAD.match(data.lstrip())
         if head:
             if head[4] or head[5] or head[6]:
-                self._fail(f'{head[0].decode()} is not read, but three coordinates as text')
+                self._fail(f'{head[0].decode()} is not supported: only three coordinates as text are read')
             data = data.lstrip()[head.end():]
         counts = re.match(rb'\s*(\d{1,18})\s+(\d{1,18})(?:\s+\d+)?', data)
         if not counts:
-            self._fail('no OFF file: the numbers of vertices and faces are missing')
+            self._fail('not an OFF file: the numbers of vertices and faces are missing')
         vertices, faces = int(counts[1]), int(counts[2])
         data = data[counts.end():]
         if 6 * vertices + 2 * faces - 1 > len(data):

@@ -56,7 +56,7 @@ def decode(data, name):
                 grey = np.array(image).astype(np.uint16)
                 return np.dstack([grey, grey, grey, np.full_like(grey, 65535)])
             if image.mode in ('I', 'F'):
-                raise FileError(f'the picture {name} has 32 bits for a texel: save it with 8 or 16')
+                raise FileError(f'the picture {name} has 32 bits per texel: save it with 8 or 16')
             return np.array(image.convert('RGBA'))
     except FileError as error:
         raise FileError(str(error) if name in str(error) else f'the picture {name}: {error}') from None
@@ -90,7 +90,7 @@ def write(path, picture, quality=95):
     try:
         image.save(out, Image.registered_extensions()[suffix], **options)
     except (KeyError, OSError, ValueError) as error:
-        raise FileError(f'{path.name}: Pillow writes no such picture ({error})') from error
+        raise FileError(f'{path.name}: Pillow cannot write such a picture ({error})') from error
     return write_file(path, out.getvalue())
 
 

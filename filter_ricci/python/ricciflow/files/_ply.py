@@ -69,7 +69,7 @@ class PlyFile(MeshFile):
         if line_end < 0:
             line_end = self._data.find(b'\r', stop)
         if not self._data.startswith(b'ply') or stop < 0 or line_end < 0 or stop > 1 << 20:
-            self._fail('no PLY file: the header is missing or has no end')
+            self._fail('not a PLY file: the header is missing or has no end')
         self._body = line_end + 1
         self._header = self._data[:self._body].decode('latin1').splitlines()
         self._elements, self._order, known = [], '', False

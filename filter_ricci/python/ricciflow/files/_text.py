@@ -12,7 +12,7 @@ def numbers(text, dtype=np.float64):
         warnings.simplefilter('ignore', DeprecationWarning)
         try:
             return np.fromstring(text, dtype, sep=' ') if text and not text.isspace() else np.zeros(0, dtype)
-        except ValueError:  # from numpy 3 on, words that are no numbers
+        except ValueError:  # from numpy 3 on, words that are not numbers
             return np.zeros(0, dtype)
 
 
