@@ -279,7 +279,7 @@ TEST(ChosenSeams, MakeARectangleOfACylinder)
 		InvalidOption::NotADisk);
 }
 
-/// Both sides of a single edge have its two vertices: its seam goes on along the next edge.
+/// Both sides of a single edge have its two vertices: its seam is extended along the next edge.
 TEST(ChosenSeams, OfOneEdgeGoOnAlongAnother)
 {
 	const SurfaceMesh mesh = sphere(12, 16);

@@ -413,25 +413,25 @@ const Wrong kWrong[] = {
 		 return setShape(r, "vertices", {RICCI_FLOAT64, 4, {1, 1, 1}, nullptr});
 	 },
 	 RICCI_MISUSE,
-	 "no shape that arrays have"},
+	 "has an invalid shape"},
 	{"NegativeLength",
 	 [](CRun& r) {
 		 return setShape(r, "vertices", {RICCI_FLOAT64, 2, {-1, 3, 0}, nullptr});
 	 },
 	 RICCI_MISUSE,
-	 "no shape that arrays have"},
+	 "has an invalid shape"},
 	{"MoreThanIndicesCount",
 	 [](CRun& r) {
 		 return setShape(r, "vertices", {RICCI_FLOAT64, 2, {1ll << 40, 3, 0}, nullptr});
 	 },
 	 RICCI_MISUSE,
-	 "no shape that arrays have"},
+	 "has an invalid shape"},
 	{"NoSuchType",
 	 [](CRun& r) {
 		 return setShape(r, "vertices", {77, 2, {3, 3, 0}, nullptr});
 	 },
 	 RICCI_MISUSE,
-	 "no type of arrays 77"},
+	 "no array type 77"},
 	{"IndicesThatAreNoWholeNumbers",
 	 [](CRun& r) {
 		 return setShape(r, "faces", {RICCI_FLOAT64, 2, {3, 3, 0}, nullptr});
@@ -444,7 +444,7 @@ const Wrong kWrong[] = {
 		 return ricci_set_array(r, "vertices", &array);
 	 },
 	 RICCI_MISUSE,
-	 "is null, but 3 x 3 entries are wanted"},
+	 "is null, but 3 x 3 entries are expected"},
 	{"NoNameOfAnArray",
 	 [](CRun& r) { return ricci_set_array(r, nullptr, nullptr); },
 	 RICCI_MISUSE,
