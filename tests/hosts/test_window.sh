@@ -46,7 +46,7 @@ solved() {
 	fits_the_screen || fail "the dialog with its help is larger than the screen"
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
-	grep -q "'Transfer texture to' draws" "$meshlab_log" || fail "the log does not name a label"
+	grep -q "'Transfer texture to' bakes" "$meshlab_log" || fail "the log does not name a label"
 	sleep 2
 	picture "$pictures/result.png"
 	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
