@@ -511,6 +511,7 @@ public:
 	MeshModel& model;
 	const Openings seams;
 	CarriedTexture texture;
+	std::string noSphere; ///< why there is no map to the sphere that was asked for
 
 private:
 	std::vector<std::string>
@@ -520,6 +521,10 @@ private:
 		std::vector<std::string> lines{toSentence(results, report.choice)};
 		for (const std::string& doubt : doubts(filter, results, par))
 			lines.push_back(doubt);
+		for (const std::string& line : ignored(filter, results, par))
+			lines.push_back(line);
+		if (!noSphere.empty())
+			lines.push_back(noSphere + " There is no sphere layer.");
 		if (report.piecesApart > 0)
 			lines.push_back("{join_vertices} 'Always' joins pieces that touch along edges without "
 							"sharing vertices.");
@@ -549,12 +554,17 @@ Outcome applyEuclidean(const Parameters& par, MeshDocument& md, ricci::Progress&
 	Settings settings = readSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::TargetCurvature::Prescribed, listener);
 	run.task.setMemoryLimit(freeMemory()); // beside the pictures
-	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer) {
 		const ricci::Task before(0.0, share);
-		sphere = Flow::ComputeSphere(run.model.cm, settings.flow);
+		try {
+			sphere = Flow::ComputeSphere(run.model.cm, settings.flow);
+		}
+		catch (const ricci::InvalidOption& e) {
+			settings.sphereLayer = false;
+			run.noSphere = sentence(e);
+		}
 	}
 	const Flow::Result result = [&] {
 		const ricci::Task flow(share, run.flowShare());

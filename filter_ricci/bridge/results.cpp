@@ -266,6 +266,47 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	return lines;
 }
 
+std::vector<std::string> ignored(int filter, const Results& results, const Parameters& par)
+{
+	const auto isSet = [&](const char* id) {
+		return findParameter(par, id)->value != findParameter(filterParameters(filter), id)->value;
+	};
+	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
+	const int loops = resultOf<int>(results, "boundary_loops");
+	std::vector<std::string> lines;
+	const auto tell = [&](const char* id, bool hasNoEffect, const std::string& why) {
+		if (hasNoEffect && isSet(id))
+			lines.push_back("{" + std::string(id) + "} has no effect: " + why);
+	};
+	tell(
+		"texture_size",
+		valueOf<std::string>(par, "carry_texture").empty(),
+		"{carry_texture} is empty.");
+	tell(
+		"finish",
+		!is("method", static_cast<int>(ricci::Method::IntrinsicFlips)),
+		"it needs the method 'Intrinsic flips'.");
+	tell("free_boundary", loops == 0, "the surface is closed.");
+	if (filter == Hyperbolic) {
+		tell(
+			"cone_angle",
+			!is("target_curvature", static_cast<int>(ricci::HyperbolicTarget::SelectedCones)),
+			"only 'Cones at selected vertices' reads it.");
+		return lines;
+	}
+	const bool placesCones =
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Automatic)) ||
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::PlacedCones));
+	for (const char* id : {"cone_count", "cone_distortion", "cone_rounding"})
+		tell(id, !placesCones, "only 'Automatic' and 'Placed cones' place cones.");
+	tell(
+		"cone_distortion",
+		placesCones && valueOf<int>(par, "cone_count") > 0,
+		"{cone_count} says how many cones are placed.");
+	tell("holes", loops < 2, "there is no hole besides the outer boundary.");
+	return lines;
+}
+
 double colourRampTop(const Results& results)
 {
 	return std::max(resultOf<double>(results, "qc_p99"), 1.0 + 1e-6);

@@ -42,6 +42,9 @@ std::string toSentence(const Results& results, const std::string& choice);
 /// What makes the use of the map doubtful, and what helps.
 std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par);
 
+/// What was asked for and has no effect, a sentence each.
+std::vector<std::string> ignored(int filter, const Results& results, const Parameters& par);
+
 /// The distortion from which on "Colour by distortion" paints red: the 99th percentile over the faces,
 /// and above 1 also where nothing is distorted, for a ramp needs two ends.
 double colourRampTop(const Results& results);

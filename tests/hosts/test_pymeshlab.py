@@ -859,10 +859,6 @@ class BadInput(unittest.TestCase):
     def test_capped_without_flips(self):
         self.check("Intrinsic flips", meshes.annulus(), method="Fixed triangles", holes="Capped")
 
-    def test_sphere_layer_of_another_surface(self):
-        self.check("genus 0.*torus", meshes.torus(), sphere_layer=True)
-        self.check("genus 0.*disk", meshes.hill(), sphere_layer=True)
-
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
 

@@ -492,6 +492,31 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 flatten(vertices, faces, **wrong)
 
+    def test_what_has_no_effect_is_said(self):
+        torus, hill = arrays(meshes.torus()), arrays(meshes.hill())
+        for mesh, values, ignored in (
+                (torus, {"target_curvature": "Flat everywhere", "cone_count": 4}, {"cone_count"}),
+                (hill, {"target_curvature": "Disk", "cone_rounding": "Multiples of pi/2"},
+                 {"cone_rounding"}),
+                (torus, {"cone_count": 4, "cone_distortion": 0.3}, {"cone_distortion"}),
+                (torus, {"method": "Fixed triangles", "finish": "Repair"}, {"finish"}),
+                (torus, {"texture_size": 512, "free_boundary": False},
+                 {"texture_size", "free_boundary"}),
+                (hill, {"holes": "Capped"}, {"holes"}),
+                (hill, {"free_boundary": False}, set()),
+                (torus, {"cone_distortion": 0.3}, set())):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                told = flatten(*mesh, **values).messages
+            self.assertEqual({line.split()[0] for line in told if "has no effect" in line},
+                             ignored, values)
+
+    def test_no_sphere_layer_of_another_surface(self):
+        for mesh in (meshes.torus(), meshes.hill()):
+            with self.assertWarnsRegex(ricciflow.RicciWarning, "genus 0.*no sphere layer"):
+                result = flatten(*arrays(mesh), flat_layer=True, sphere_layer=True)
+            self.assertEqual(set(result.layers), {"flat"})
+
     def test_doubts_are_warnings(self):
         """As warnings, and with the result."""
         mesh = arrays(meshes.swirled(meshes.double_torus(), 4.0, 1.5))

@@ -346,7 +346,11 @@ void setAutomatic(
 	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
 	else {
-		target.choice = "no cones, because of the topology and the requested boundary";
+		target.choice =
+			request.options.cones.onlyWhereNeeded ? "no cones, because the surface needs none"
+			: request.measuresAreas
+				? "no cones, because of the topology and the requested boundary"
+				: "no cones, because only the method 'Intrinsic flips' places them to keep areas";
 		setPlain(surface, request, target);
 	}
 }
