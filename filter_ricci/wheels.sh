@@ -58,22 +58,22 @@ get_zig() {
 }
 
 # The source distribution as a tree: what the library and the package are made of, and beside it, in
-# sources/, what they need of others. Times of files are kept, so that only what changes is compiled again.
+# sources/, what they need of others.
 gather() {
-	local sources=$tree/sources file
-	rm -rf "$tree"
+	local new=$tree.new sources=$tree.new/sources file
+	rm -rf "$new"
 	mkdir -p "$sources"/{SuiteSparse,vcglib/wrap,Eigen/include/eigen3,Eigen/share/eigen3}
 	(cd "$root" && find CMakeLists.txt {LICENSE,README.md,CITATION.cff,pyproject.toml,vcg_ext,filter_ricci} -type f \
 		-not -path '*/__pycache__/*' -not -path 'filter_ricci/demo/*' -print0 |
-		xargs -0 cp -p --parents -t "$tree")
-	cp -rp "$build/sources/$meshlab/src/vcglib/vcg" "$sources/vcglib/"
-	cp -p "$build/sources/$meshlab/src/vcglib/LICENSE.txt" "$sources/vcglib/LICENSE"
-	cp -p "$build/sources/$meshlab/src/vcglib/wrap/callback.h" "$sources/vcglib/wrap/"
-	cp -rp "$eigen/Eigen" "$sources/Eigen/include/eigen3/"
-	cp -rp /usr/share/eigen3/cmake "$sources/Eigen/share/eigen3/"
-	cp -p /usr/share/doc/libeigen3-dev/copyright "$sources/Eigen/LICENSE"
+		xargs -0 cp --parents -t "$new")
+	cp -r "$build/sources/$meshlab/src/vcglib/vcg" "$sources/vcglib/"
+	cp "$build/sources/$meshlab/src/vcglib/LICENSE.txt" "$sources/vcglib/LICENSE"
+	cp "$build/sources/$meshlab/src/vcglib/wrap/callback.h" "$sources/vcglib/wrap/"
+	cp -r "$eigen/Eigen" "$sources/Eigen/include/eigen3/"
+	cp -r /usr/share/eigen3/cmake "$sources/Eigen/share/eigen3/"
+	cp /usr/share/doc/libeigen3-dev/copyright "$sources/Eigen/LICENSE"
 	if [ -d "$build/sources/$suitesparse" ]; then
-		(cd "$build/sources/$suitesparse" && cp -rp --parents SuiteSparse_config/*.[ch] \
+		(cd "$build/sources/$suitesparse" && cp -r --parents SuiteSparse_config/*.[ch] \
 			CHOLMOD/{Include,Core,Cholesky,Supernodal} {AMD,COLAMD}/{Include,Source} "$sources/SuiteSparse/")
 		for file in CHOLMOD AMD COLAMD; do
 			cat "$build/sources/$suitesparse/$file/Doc/License.txt"
@@ -82,6 +82,15 @@ gather() {
 		rmdir "$sources/SuiteSparse"
 		echo "Without the sources of CHOLMOD the wheels have Eigen's solver, slower on large meshes."
 	fi
+	# A file that has not changed keeps its time, so that only what changes is compiled again.
+	mkdir -p "$tree"
+	while IFS= read -r -d '' file; do
+		[ -e "$new/$file" ] || rm "$tree/$file"
+	done < <(cd "$tree" && find . -type f -print0)
+	while IFS= read -r -d '' file; do
+		cmp -s "$new/$file" "$tree/$file" || install -D -m 644 "$new/$file" "$tree/$file"
+	done < <(cd "$new" && find . -type f -print0)
+	rm -rf "$new"
 }
 
 # compiled_in PLATFORM: in $expression and $licences, what zig puts into the library.

@@ -20,6 +20,8 @@ set(CMAKE_INSTALL_NAME_TOOL true) # nothing is installed
 set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
 if(RICCI_ZIG_TARGET MATCHES "musl") # whose threads have stacks of 128 KiB, all that Eigen may take for one array
 	set(CMAKE_CXX_FLAGS_INIT -DEIGEN_STACK_ALLOCATION_LIMIT=16384)
+elseif(RICCI_ZIG_TARGET MATCHES "macos") # zig's linker reads no list of exports
+	set(CMAKE_CXX_FLAGS_INIT "-fvisibility=hidden -fvisibility-inlines-hidden")
 endif()
 # Nothing of the machine that compiles, but for Eigen, which consists of headers.
 set(CMAKE_FIND_ROOT_PATH "${CMAKE_CURRENT_LIST_DIR}/nothing")
