@@ -14,7 +14,7 @@ try:
     import bmesh
     import numpy
 except ImportError as problem:
-    common.skip(f"bpy cannot be imported here: {problem}")
+    common.skip(f"the add-on for Blender: bash tests/deep.sh blender tries it ({problem})")
 sys.path.insert(0, os.path.join(common.BUILD, "python"))
 try:
     import ricciflow
