@@ -185,7 +185,7 @@ class Readme(unittest.TestCase):
                                     read("tests", "hosts", name), re.MULTILINE):
                 if "${group}" in after:
                     self.assertIn(group, looped[-1].split(), name)
-                elif "${CMAKE_BINARY_DIR}" not in after:
+                elif after and "${CMAKE_BINARY_DIR}" not in after:
                     self.assertIn(group, after.split(), name)
 
 
