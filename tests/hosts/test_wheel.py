@@ -99,7 +99,8 @@ class Wheel(unittest.TestCase):
             from packaging.utils import parse_wheel_filename
         except ImportError as problem:
             self.skipTest(f"packaging cannot be imported: {problem}")
-        wheels = glob.glob(os.path.join(common.BUILD, "release", "**", "ricciflow-*.whl"), recursive=True)
+        wheels = glob.glob(os.path.join(common.BUILD, "release", "**",
+                                        f"ricciflow-{ricciflow.__version__}-*.whl"), recursive=True)
         for wheel in wheels:
             name, version, build, tags = parse_wheel_filename(os.path.basename(wheel))
             self.assertEqual((name, build), ("ricciflow", ()))

@@ -34,6 +34,8 @@ SYSTEMS = os.path.join(common.BUILD, "deep", "systems")
 ARM = os.path.join(SYSTEMS, "arm64")
 ZIG = os.path.join(common.BUILD, "wheels", "bin", "zig")
 SHARED = os.path.join(os.path.dirname(common.REPOSITORY), "shared", "meshes")
+with open(os.path.join(common.REPOSITORY, "CMakeLists.txt"), encoding="utf-8") as project:
+    VERSION = re.search(r"(?m)^project\(\w+ VERSION ([\d.]+)", project.read()).group(1)
 INCLUDED = os.path.join(common.REPOSITORY, "filter_ricci", "library")
 NATIVE = os.path.join(common.BUILD, "library")
 IMPORTS = {
@@ -65,7 +67,8 @@ json.dump([between - start, end - start, resident, maps], sys.stdout)
 
 
 def wheel(platform):
-    found = glob.glob(os.path.join(common.BUILD, "release", "wheels", f"ricciflow-*-{platform}*.whl"))
+    folder = os.path.join(common.BUILD, "release", "wheels")
+    found = glob.glob(os.path.join(folder, f"ricciflow-{VERSION}-*-{platform}*.whl"))
     if len(found) != 1:
         raise AssertionError(f"bash filter_ricci/wheels.sh {platform} makes it: {found}")
     return found[0]
