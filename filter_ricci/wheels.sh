@@ -120,7 +120,7 @@ make_wheel() {
 			-DVCGLIB_DIR="$tree/sources/vcglib" -DSUITESPARSE_SOURCE_DIR="$suitesparse_tree" &&
 			cmake --build "$folder/$platform" --parallel "${JOBS:-$(nproc)}" --target ricciflow
 	} >"$folder/$platform.log" 2>&1 || {
-		grep -E 'error|Error|undefined' "$folder/$platform.log" | head -n 20
+		grep -E 'error:|Error |FAILED' "$folder/$platform.log" | head -n 20
 		echo "FAILED: $platform; see build/wheels/$platform.log"
 		return 1
 	}
