@@ -20,7 +20,7 @@ set(CMAKE_INSTALL_NAME_TOOL true) # nothing is installed
 set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
 if(RICCI_ZIG_TARGET MATCHES "musl") # whose threads have stacks of 128 KiB, all that Eigen may take for one array
 	set(CMAKE_CXX_FLAGS_INIT -DEIGEN_STACK_ALLOCATION_LIMIT=16384)
-elseif(RICCI_ZIG_TARGET MATCHES "macos") # zig's linker reads no list of exports
+elseif(RICCI_ZIG_TARGET MATCHES "macos") # whose loader exchanges what libraries have in common
 	set(CMAKE_CXX_FLAGS_INIT "-fvisibility=hidden -fvisibility-inlines-hidden")
 endif()
 # Nothing of the machine that compiles, but for Eigen, which consists of headers.
