@@ -125,7 +125,7 @@ make_wheel() {
 		return 1
 	}
 	library=$(find "$folder/$platform/library" -name '*ricciflow.so' -o -name '*.dylib' -o -name '*.dll')
-	[[ $platform != macosx* ]] || python3 -B "$root/filter_ricci/python/keep_exports.py" "$library" _ricci_
+	[[ $platform != macosx* ]] || python3 -B "$root/filter_ricci/python/keep_inside.py" "$library" _ricci_
 	compiled_in "$platform"
 	python3 -B "$tree/filter_ricci/python/build_backend.py" "$library" "$platform${also[$platform]:-}" \
 		"$wheels" "$expression" "${licences[@]}"

@@ -17,6 +17,8 @@ set(CMAKE_AR "${RICCI_ZIG}/zig-ar")
 set(CMAKE_RANLIB "${RICCI_ZIG}/zig-ranlib")
 set(CMAKE_RC_COMPILER "${RICCI_ZIG}/zig-rc")
 set(CMAKE_INSTALL_NAME_TOOL true) # nothing is installed
+set(CMAKE_BUILD_WITH_INSTALL_NAME_DIR ON) # no library names the folder it was made in
+set(CMAKE_INSTALL_NAME_DIR @rpath)
 set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
 if(RICCI_ZIG_TARGET MATCHES "musl") # whose threads have stacks of 128 KiB, all that Eigen may take for one array
 	set(CMAKE_CXX_FLAGS_INIT -DEIGEN_STACK_ALLOCATION_LIMIT=16384)

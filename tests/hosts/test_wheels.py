@@ -178,6 +178,8 @@ class Files(unittest.TestCase):
                     exported = {symbol.name for symbol in binary.dynamic_symbols if symbol.exported}
                     needed = list(binary.libraries)
                 self.assertEqual(exported, functions, platform)
+                with open(path, "rb") as source:
+                    self.assertNotIn(common.BUILD.encode(), source.read())
                 for name in needed:
                     self.assertRegex(name, f"^({IMPORTS[platform[:4].rstrip('_')]})$", platform)
                 self.assertTrue(needed)
@@ -194,6 +196,9 @@ class Files(unittest.TestCase):
         """For no newer system than the wheel says, and signed, page by page, as these systems demand."""
         wanted = [int(x) for x in re.match(r"macosx_(\d+)_(\d+)_", platform).groups()]
         self.assertEqual(list(binary.build_version.minos)[:2], wanted)
+        # Nothing is exchanged for what other libraries of the process have.
+        self.assertFalse(binary.header.has(lief.MachO.Header.FLAGS.BINDS_TO_WEAK))
+        self.assertEqual(bytes(binary.dyld_info.weak_bind_opcodes).strip(b"\0"), b"")
         with open(path, "rb") as source:
             data = source.read()
         place = binary.code_signature.data_offset

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Takes out of the exports of a library for macOS all that does not begin with a prefix, and signs it again
-as zig had, by the hashes of its pages. zig's linker reads no list of exports.
-Usage: keep_exports.py LIBRARY PREFIX"""
+"""Keeps inside a library for macOS what zig's linker leaves open: takes out of its exports all names that
+do not begin with a prefix, and has the loader exchange nothing of it, such as parts of the C++ library, for
+those of other libraries. Then signs it as zig had, by the hashes of its pages.
+Usage: keep_inside.py LIBRARY PREFIX"""
 
 import hashlib
 import struct
@@ -10,6 +11,7 @@ import sys
 DYLD_INFO = 0x80000022
 CODE_SIGNATURE = 0x1d
 SIGNATURE, DIRECTORY = 0xfade0cc0, 0xfade0c02
+FLAGS, WEAK = 24, 0x8000 | 0x10000  # place of the header's flags; has weak names, binds to such
 SHA256 = (32, 2)  # bytes of a hash, and the number of its kind
 
 
@@ -114,7 +116,13 @@ def main(path, prefix):
     with open(path, "rb") as source:
         data = bytearray(source.read())
     found = commands(data)
-    start, size = struct.unpack_from("<2I", data, found[DYLD_INFO] + 40)
+    place = found[DYLD_INFO]
+    # Bindings of weak names come on top of the addresses in the library: 0 is the end of them.
+    weak, size = struct.unpack_from("<2I", data, place + 24)
+    data[weak:weak + size] = bytes(size)
+    flags, = struct.unpack_from("<I", data, FLAGS)
+    struct.pack_into("<I", data, FLAGS, flags & ~WEAK)
+    start, size = struct.unpack_from("<2I", data, place + 40)
     kept = [(name, known) for name, known in exports(bytes(data[start:start + size]))
             if name.startswith(prefix.encode())]
     trie = trie_of(kept)
