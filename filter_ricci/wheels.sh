@@ -141,8 +141,7 @@ mkdir -p "$folder" "$build/sources" "$wheels"
 for tool in cmake ninja python3; do
 	command -v $tool >/dev/null || need "$tool"
 done
-version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
-tree=$folder/ricciflow-$version
+tree=$folder/tree # one place for all versions: what is compiled names it
 say "Sources"
 fetch_sources $meshlab $suitesparse
 [ -d "$build/sources/$meshlab" ] || need "vcglib, in build/sources/$meshlab"

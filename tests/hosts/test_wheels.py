@@ -273,8 +273,8 @@ class Maps(unittest.TestCase):
                 linked = glob.glob(os.path.join(place, "**", "*ricciflow*.a"), recursive=True)[0]
             program = os.path.join(folder, "print_map.exe")
             cache = os.path.join(common.BUILD, "wheels", "cache")
-            run([ZIG, "cc", "-target", target, "-I", INCLUDED, os.path.join(HERE, "print_map.c"), linked,
-                 "-o", program, "-Wl,-rpath,$ORIGIN"],
+            run([ZIG, "cc", "-O2", "-target", target, "-I", INCLUDED, os.path.join(HERE, "print_map.c"),
+                 linked, "-o", program, "-Wl,-rpath,$ORIGIN"],
                 env={**os.environ, "ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache})
             self.compare(platform, {name: parsed(run([*launcher, program, path], **options))
                                     for name, path in self.paths.items()})
