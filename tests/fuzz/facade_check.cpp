@@ -111,7 +111,7 @@ struct Reading
 					mesh.seam.push_back(seams[f]);
 			}
 		std::vector<std::string> notes;
-		opened = openMesh(mesh, notes, cut);
+		opened = openMesh(mesh, notes, cut, FlowOptions().join);
 		for (std::size_t f = 0; f < opened.face.size(); ++f)
 			wanted[inVcg(opened.face[f])] = opened.reversed[Face(f)] ? -1 : 1;
 		for (const int f : opened.degenerate)

@@ -143,7 +143,7 @@ class Results(unittest.TestCase):
         self.check(meshes.torus(), normalize_uv=False)
 
     def test_safe_treatment_is_announced(self):
-        for mesh, word in ((meshes.with_flipped_faces(meshes.torus()), "orient"),
+        for mesh, word in ((meshes.with_flipped_faces(meshes.torus()), "inverted winding"),
                            (meshes.with_unreferenced_vertex(meshes.torus()), "belongs to no face")):
             with self.subTest(word):
                 run = run_on(mesh)
@@ -320,7 +320,7 @@ class BadInput(unittest.TestCase):
                 (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),
                 (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
                 (r"finish.*3 \(Least stretch\)", {"finish": 4}),
-                (r"charts.*1 \(Without overlap\)", {"charts": 3}),
+                (r"charts.*1 \(Without overlap\)", {"charts": 4}),
                 (r"method.*3 \(Thurston\)", {"method": 7})):
             with self.subTest(values):
                 self.check(words, meshes.torus(), **values)

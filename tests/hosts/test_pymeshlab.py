@@ -462,7 +462,7 @@ class Report(unittest.TestCase):
         run(load(self.path("mended.ply")), report="page.html")
         with open(self.path("page.html"), encoding="utf-8") as source:
             notes = re.findall(r"^<p>(.*)</p>$", source.read(), re.MULTILINE)
-        self.assertTrue([n for n in notes if "orient" in n and n.endswith(".")], notes)
+        self.assertTrue([n for n in notes if "inverted winding" in n and n.endswith(".")], notes)
         self.assertTrue([n for n in notes if "belongs to no face" in n], notes)
 
     def test_hyperbolic(self):

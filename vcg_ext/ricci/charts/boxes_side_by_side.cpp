@@ -136,6 +136,7 @@ std::vector<Point2> inCells(std::vector<Box2> boxes)
 		if (!places)
 			continue;
 		std::vector<Point2> shifts;
+		shifts.reserve(boxes.size());
 		for (std::size_t i = 0; i < boxes.size(); ++i) {
 			const auto& [x, y] = (*places)[i];
 			shifts.push_back(

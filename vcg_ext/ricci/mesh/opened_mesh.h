@@ -73,13 +73,13 @@ struct OpenedMesh
 /// \throw InvalidMesh ArrayLength unless an array has no entries or as many as are wanted
 void requireLength(const char* array, std::size_t length, std::size_t wanted);
 
-/// Joins vertices that are split (findSplitVertices()) as \p join says, then cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
-/// [Gueziec et al. 2001]): edges with more than two faces by glueFaces(), vertices with more than one
-/// fan into one copy for each, one-sided components as \p cut says. Before the last of
-/// these, all sheets are opened along SurfaceMesh::seam and the jumps of SurfaceMesh::map. A seam of one edge that touches neither
-/// another nor a boundary goes on along the edge that leads straightest on: else both its sides would
-/// have the same two vertices, and lie on each other in the plane. Left out are faces that use a
-/// vertex twice, and components that have no area. What was done is told in \p notes.
+/// Joins vertices that are split (findSplitVertices()) as \p join says, then cuts a triangle soup open, so that every
+/// triangle with an area can be mapped (after the cutting of [Gueziec et al. 2001]): edges with more than two faces by
+/// glueFaces(), vertices with more than one fan into one copy for each, one-sided components as \p cut says. Before
+/// the last of these, all sheets are opened along SurfaceMesh::seam and the jumps of SurfaceMesh::map. A seam of one
+/// edge that touches neither another nor a boundary goes on along the edge that leads straightest on: else both its
+/// sides would have the same two vertices, and lie on each other in the plane. Left out are faces that use a vertex
+/// twice, and components that have no area. What was done is told in \p notes.
 /// \throw InvalidMesh for the first of these that is found, with its number: no faces; marks of sides for another
 /// number of faces; faces that use vertices which are not in the mesh; coordinates that are not finite or
 /// beyond 1e50; components smaller than 1e-50; no face with an area, or none beside a vertex too far away
