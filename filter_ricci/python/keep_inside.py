@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keeps inside a library for macOS what zig's linker leaves open: takes out of its exports all names that
 do not begin with a prefix, and has the loader exchange nothing of it, such as parts of the C++ library, for
-those of other libraries. Then signs it as zig had, by the hashes of its pages.
+those of other libraries. Then signs it as zig had, by the hashes of its pages; for Intel zig signs nothing.
 Usage: keep_inside.py LIBRARY PREFIX"""
 
 import hashlib
@@ -129,7 +129,8 @@ def main(path, prefix):
     if not kept or len(trie) > size:
         sys.exit(f"{path}: {len(kept)} exports begin with {prefix}.")
     data[start:start + size] = trie.ljust(size, b"\0")  # nothing else moves
-    sign(data, struct.unpack_from("<I", data, found[CODE_SIGNATURE] + 8)[0])
+    if CODE_SIGNATURE in found:
+        sign(data, struct.unpack_from("<I", data, found[CODE_SIGNATURE] + 8)[0])
     with open(path, "wb") as target:
         target.write(data)
 
