@@ -44,7 +44,7 @@ need() {
 # zig in an environment of its own, and its parts as programs of their own, as CMake wants them.
 get_zig() {
 	local tool
-	"$folder/zig/bin/python" -m pip show -q ziglang 2>/dev/null | grep -qx "Version: $zig_version" || {
+	"$folder/zig/bin/python" -m pip show ziglang 2>/dev/null | grep -qx "Version: $zig_version" || {
 		python3 -m venv "$folder/zig" && "$folder/zig/bin/pip" install -q "ziglang==$zig_version"
 	} >"$folder/zig.log" 2>&1 || need "zig $zig_version, which pip could not install; see build/wheels/zig.log"
 	zig=$("$folder/zig/bin/python" -c 'import os, ziglang; print(os.path.dirname(ziglang.__file__))')
