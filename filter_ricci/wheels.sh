@@ -63,9 +63,10 @@ gather() {
 	local new=$tree.new sources=$tree.new/sources file
 	rm -rf "$new"
 	mkdir -p "$sources"/{SuiteSparse,vcglib/wrap,Eigen/include/eigen3,Eigen/share/eigen3}
-	(cd "$root" && find CMakeLists.txt {LICENSE,README.md,CITATION.cff,pyproject.toml,vcg_ext,filter_ricci} -type f \
+	(cd "$root" && find CMakeLists.txt {LICENSE,README.md,CITATION.cff,vcg_ext,filter_ricci} -type f \
 		-not -path '*/__pycache__/*' -not -path 'filter_ricci/demo/*' -print0 |
 		xargs -0 cp --parents -t "$new")
+	mv "$new/filter_ricci/python/pyproject.toml" "$new/" # where pip looks for it
 	cp -r "$build/sources/$meshlab/src/vcglib/vcg" "$sources/vcglib/"
 	cp "$build/sources/$meshlab/src/vcglib/LICENSE.txt" "$sources/vcglib/LICENSE"
 	cp "$build/sources/$meshlab/src/vcglib/wrap/callback.h" "$sources/vcglib/wrap/"

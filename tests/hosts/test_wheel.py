@@ -790,6 +790,7 @@ class Functions(unittest.TestCase):
                 flatten(bad)
         for error, pattern, slip in (
                 (TypeError, "'cone_distorsion': did you mean 'cone_distortion'", {"cone_distorsion": 1}),
+                (TypeError, "'padding': it is 'chart_margin' here", {"padding": 2}),
                 (ValueError, "'Disc' is not a choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
                 (ValueError, "'Torus' is not a choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
                 (ValueError, "^target_curvature: 99", {"target_curvature": 99}),

@@ -51,6 +51,7 @@ TextureCoordinates inPlane(const SurfaceMesh& mesh, const Options& options, Prog
 std::vector<DiskMotion> motions(const std::vector<DiskIsometry>& isometries)
 {
 	std::vector<DiskMotion> motions;
+	motions.reserve(isometries.size());
 	for (const DiskIsometry& isometry : isometries)
 		motions.push_back({isometry.a, isometry.b});
 	return motions;

@@ -85,6 +85,14 @@ def _number(value):
     return float(value)
 
 
+# What other unwrappers call it.
+_ELSEWHERE = {
+    "padding": "chart_margin", "margin": "chart_margin", "island_margin": "chart_margin",
+    "gutter": "chart_margin", "islands": "charts", "max_charts": "charts", "pack": "charts",
+    "max_stretch": "cone_distortion", "stretch": "finish", "fill_holes": "holes",
+    "resolution": "texture_size", "bake": "carry_texture", "texture": "carry_texture",
+    "weld": "join_vertices", "timeout": "time_limit"}
+
 _READ = {"bool": operator.index, "int": operator.index, "float": _number, "file": _file}
 
 
@@ -94,7 +102,9 @@ def checked(function, description, given):
     values = {}
     for name, value in given.items():
         if name not in known:
-            raise TypeError(f"{function}() has no parameter {name!r}: {nearest(name, list(known))}")
+            here = _ELSEWHERE.get(name)
+            meant = f"it is {here!r} here" if here in known else nearest(name, list(known))
+            raise TypeError(f"{function}() has no parameter {name!r}: {meant}")
         kind = known[name]["type"]
         value = value.item() if hasattr(value, "item") else value  # of numpy
         try:

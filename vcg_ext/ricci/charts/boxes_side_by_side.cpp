@@ -128,6 +128,7 @@ std::vector<Point2> inCells(std::vector<Box2> boxes)
 		 covered *= kLess) {
 		const double scale = root * std::sqrt(covered);
 		std::vector<Size> sizes;
+		sizes.reserve(boxes.size());
 		for (const Box2& box : boxes)
 			sizes.push_back(
 				{static_cast<int>(std::ceil(box.width() * scale)),

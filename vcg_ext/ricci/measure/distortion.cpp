@@ -103,6 +103,7 @@ std::vector<double> triangleAreas(
 	const std::vector<std::array<double, 3>>& lengths)
 {
 	std::vector<double> areas;
+	areas.reserve(triangles.size());
 	for (const std::array<double, 3>& sides : lengths)
 		areas.push_back(euclideanArea(sides));
 	for (std::size_t f = areas.size(); f < triangles.size(); ++f) {
