@@ -9,6 +9,8 @@
 #include <QStringList>
 #include <QTimer>
 
+#include <algorithm>
+
 namespace {
 
 /// Characters in a line of the dialog's help.
@@ -70,7 +72,11 @@ void showInTwoColumns(const QString& filter)
 						item->alignment());
 				}
 		list->widget()->setMinimumSize(rows->sizeHint());
-		widget->setMinimumSize(dialog->widget()->sizeHint());
+		// The filter's text is higher where it is broken into lines, which the hint does not know.
+		QSize size = dialog->widget()->sizeHint();
+		size.setHeight(std::max(size.height(), whole->totalHeightForWidth(size.width())));
+		dialog->widget()->setMinimumSize(size);
+		widget->setMinimumSize(size);
 		widget->adjustSize();
 	}
 }
