@@ -72,6 +72,21 @@ Parametrization chosen(const std::string& choice, Parametrization map)
 	return map;
 }
 
+/// The map of a flow with other cones, without overlap.
+/// \return none where it fails, which is told with \p otherwise
+std::optional<Parametrization> otherMap(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	const std::string& otherwise)
+{
+	return attempt(otherwise, [&] {
+		Parametrization map = flattenToPlane(component, input, options);
+		separateCharts(options, map);
+		return map;
+	});
+}
+
 /// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
 /// \param expected what it was expected to cost
 /// \param alternative what another map costs
@@ -96,11 +111,7 @@ Parametrization withOtherCones(
 		isTried = true;
 		Options other = options;
 		other.cones.distortion = spread;
-		auto next = attempt("the map before it stays", [&] {
-			Parametrization part = flattenToPlane(component, input, other);
-			separateCharts(options, part);
-			return part;
-		});
+		auto next = otherMap(component, input, other, "the map before it stays");
 		if (!next)
 			continue;
 		const int steps = map.report.iterations + next->report.iterations;
@@ -143,11 +154,7 @@ Parametrization givenOrFlow(
 {
 	Options plain = options;
 	plain.cones.onlyWhereNeeded = true;
-	auto map = attempt("the existing map stays", [&] {
-		Parametrization part = flattenToPlane(component, input, plain);
-		separateCharts(options, part);
-		return part;
-	});
+	auto map = otherMap(component, input, plain, "the existing map stays");
 	const std::string own = "the existing map: " + costText(given);
 	if (!map)
 		return chosen(own, std::move(given));
