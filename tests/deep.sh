@@ -22,7 +22,7 @@
 #     sanitizers      the address and undefined-behaviour sanitizers
 #
 # Each part has its share of the time, and what it leaves goes to the parts after it: those that may be
-# skipped come first. The summary has a line for each part. A part at its limit is cut off; what it has
+# skipped come first, and last the one that builds the whole library again. The summary has a line for each part. A part at its limit is cut off; what it has
 # found until then counts.
 #
 # JOBS says how many compilers run at the same time (default: all processors).
@@ -33,7 +33,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
 folder=$build/deep
 jobs=${JOBS:-$(nproc)}
 googletest=/usr/src/googletest
-parts=(wheels blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
+parts=(blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers wheels)
 # Seconds on two idle cores, rounded up.
 declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240
 	[extra-plugins]=180 [threads]=60 [valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)

@@ -144,12 +144,20 @@ std::string contradictionOf(const Report& r, const OpenedMesh& opened)
 	return {};
 }
 
-/// Barycentric coordinates of \p p in the triangle \p t; false if it is not there.
-bool coordinatesIn(const Triangle& t, const SurfacePoint& p, Point3& weight)
+/// Barycentric coordinates of \p p in the triangle \p t; false if it is not there. Vertices at the same place
+/// are the same point: where they are joined, a point of an edge is told by those of either face.
+bool coordinatesIn(
+	const std::vector<Point3>& place, const Triangle& t, const SurfacePoint& p, Point3& weight)
 {
 	weight = {0, 0, 0};
 	for (std::size_t i = 0; i < 4; ++i) {
-		const auto k = std::find(t.begin(), t.end(), p.vertex[i]) - t.begin();
+		const auto same = [&](int v) {
+			return p.vertex[i] >= 0 && place[at(v)] == place[at(p.vertex[i])];
+		};
+		auto corner = std::find(t.begin(), t.end(), p.vertex[i]);
+		if (corner == t.end())
+			corner = std::find_if(t.begin(), t.end(), same);
+		const auto k = corner - t.begin();
 		if (k < 3)
 			weight[static_cast<std::size_t>(k)] += p.weight[i];
 		else if (p.weight[i] != 0.0)
@@ -199,7 +207,8 @@ std::string defectOfPieces(const Reading& reading, const FlatMesh& refined, std:
 		}
 		Point3 w[3];
 		for (std::size_t k = 0; k < 3; ++k)
-			if (!coordinatesIn(t, refined.source[refined.vertices[i][k]], w[k]) ||
+			if (!coordinatesIn(
+					reading.mesh.positions, t, refined.source[refined.vertices[i][k]], w[k]) ||
 				std::min({w[k][0], w[k][1], w[k][2]}) < -kTolerance)
 				return "a piece lies outside its face";
 		const double part = w[0][0] * (w[1][1] * w[2][2] - w[1][2] * w[2][1]) -
