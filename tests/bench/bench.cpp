@@ -238,7 +238,7 @@ chooseRequest(const EmbeddedSurface& surface, const TargetOptions& options, std:
 
 #ifdef RICCI_USE_CHOLMOD
 /// What the column one_factor_cpu_s says, through CHOLMOD's own interface.
-[[gnu::noinline]] void solveOnce(const Hessian::Matrix& matrix)
+[[gnu::noinline]] void solveOnce(const FactoredHessian::Matrix& matrix)
 {
 	cholmod_common common;
 	cholmod_start(&common);
@@ -271,9 +271,9 @@ chooseRequest(const EmbeddedSurface& surface, const TargetOptions& options, std:
 		throw std::runtime_error("The matrix is not positive definite.");
 }
 #else
-[[gnu::noinline]] void solveOnce(const Hessian::Matrix& matrix)
+[[gnu::noinline]] void solveOnce(const FactoredHessian::Matrix& matrix)
 {
-	Eigen::SimplicialLDLT<Hessian::Matrix, Eigen::Lower> solver(matrix);
+	Eigen::SimplicialLDLT<FactoredHessian::Matrix, Eigen::Lower> solver(matrix);
 	const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Ones(matrix.rows()));
 	if (solver.info() != Eigen::Success)
 		throw std::runtime_error("The matrix is not positive definite.");
@@ -286,7 +286,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 	hessian.fill(map, 0.0);
 	double fastest = INFINITY;
 	for (int i = 0; i < repeat; ++i)
-		fastest = std::min(fastest, timeOf([&] { solveOnce(hessian.hessian().matrix()); }));
+		fastest = std::min(fastest, timeOf([&] { solveOnce(hessian.matrix()); }));
 	return fastest;
 }
 

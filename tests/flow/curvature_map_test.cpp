@@ -12,8 +12,6 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace ricci::testing {
 namespace {
 
@@ -44,7 +42,7 @@ Packed twoVertexTorus()
 }
 
 /// A symmetric matrix from its lower triangle.
-Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix)
+Eigen::MatrixXd bothTriangles(const FactoredHessian::Matrix& matrix)
 {
 	const Eigen::MatrixXd lower = matrix;
 	return lower.selfadjointView<Eigen::Lower>();
@@ -53,11 +51,7 @@ Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix)
 /// The whole Hessian with all vertices unknown, both triangles.
 Eigen::MatrixXd denseHessian(const CurvatureMap& map)
 {
-	const int n = map.triangulation().vertexCount();
-	VertexArray<int> unknown(n);
-	std::iota(unknown.begin(), unknown.end(), 0);
-	Hessian hessian;
-	hessian.layOut(map, unknown, n);
+	FactoredHessian hessian(VertexArray<char>(map.triangulation().vertexCount(), 0), false);
 	hessian.fill(map, 0.0);
 	return bothTriangles(hessian.matrix());
 }
@@ -238,7 +232,7 @@ void expectConvexityAfterFlips(double largest)
 			continue; // edges of the boundary cannot flip: triangles may break
 		for (const double spread : {0.3, 1.0, 5.0}) {
 			SCOPED_TRACE(spread);
-			FlippingCurvatureMap<Geometry> map(mesh.packing);
+			GeometricCurvatureMap<Geometry> map(mesh.packing, true);
 			const VertexVector u = disturbed(hyperbolicU(mesh, largest), spread, random, -1e-2);
 			map.evaluate(disturbed(u, 1.0, random, -1e-2)); // what is rejected leaves no trace
 			map.reject();
@@ -350,32 +344,30 @@ TEST(CurvatureMap, BrokenTrianglesHaveTheAnglesPiZeroZeroAndNoDerivative)
 	EXPECT_GT(checked, 1000);
 }
 
-TEST(Hessian, RestrictsToTheUnknownVertices)
+TEST(FactoredHessian, RestrictsToTheUnknownVertices)
 {
 	Random random(53);
 	const Packed mesh(randomPlanarDisk(5, random));
 	Map map = mesh.map();
 	map.evaluate(mesh.u());
 	const Eigen::MatrixXd all = denseHessian(map);
-	const int n = mesh.triangulation.vertexCount();
-	VertexArray<int> unknown(n, -1);
-	std::vector<int> kept;
-	for (int v = n - 1; v >= 0; --v) // rows in another order than the vertices
-		if (v % 3 != 0) {
-			unknown[Vertex(v)] = static_cast<int>(kept.size());
-			kept.push_back(v);
-		}
-	Hessian hessian;
-	hessian.layOut(map, unknown, static_cast<int>(kept.size()));
+	VertexArray<char> fixed(mesh.triangulation.vertexCount(), 0);
+	for (const Vertex v : fixed.indices())
+		fixed[v] = v.number() % 3 == 0;
+	FactoredHessian hessian(fixed, true);
 	hessian.fill(map, 0.5);
 	const Eigen::MatrixXd part = bothTriangles(hessian.matrix());
-	for (std::size_t i = 0; i < kept.size(); ++i)
-		for (std::size_t j = 0; j < kept.size(); ++j)
-			EXPECT_NEAR(
-				part(Eigen::Index(i), Eigen::Index(j)),
-				all(kept[i], kept[j]) + (i == j ? 0.5 : 0.0),
-				1e-13);
-	EXPECT_EQ(hessian.largestDiagonal(), part.diagonal().maxCoeff());
+	const VertexArray<int>& row = hessian.row();
+	for (const Vertex v : fixed.indices()) {
+		EXPECT_EQ(row[v] < 0, fixed[v] != 0);
+		for (const Vertex w : fixed.indices())
+			if (!fixed[v] && !fixed[w]) {
+				EXPECT_NEAR(
+					part(row[v], row[w]),
+					all(v.number(), w.number()) + (v == w ? 0.5 : 0.0),
+					1e-13);
+			}
+	}
 }
 
 } // namespace

@@ -100,7 +100,7 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 
 	LinearSystem result;
 	result.fixesBoundary = m_fixesBoundary;
-	result.laplacian = m_hessian->hessian().matrix().selfadjointView<Eigen::Lower>();
+	result.laplacian = m_hessian->matrix().selfadjointView<Eigen::Lower>();
 	result.curvature = ofVertices(m_curvature);
 	result.area = ofVertices(m_area);
 	result.factor = ofVertices(m_factor);

@@ -18,10 +18,10 @@ namespace ricci {
 
 namespace {
 
-template<class Vector>
-void release(Vector& vector)
+template<class T>
+void release(T& workSpace)
 {
-	vector = Vector();
+	workSpace = T();
 }
 
 } // namespace
@@ -45,9 +45,24 @@ void CurvatureMap::swapEdge(Edge e, double delta)
 	++m_revision;
 }
 
+void CurvatureMap::accept()
+{
+	for (const auto& [e, delta] : m_journal)
+		m_flips.push_back(e);
+	m_journal.clear();
+}
+
+void CurvatureMap::reject()
+{
+	if (!m_journal.empty())
+		++m_revision;
+	rewind(m_journal, m_packing.triangulation, m_packing.delta);
+}
+
 template<class Geometry>
-GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
-		CurvatureMap(std::move(packing)), m_circles(m_packing.triangulation.vertexCount()),
+GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing, bool flips) :
+		CurvatureMap(std::move(packing)), m_flipsEdges(flips),
+		m_circles(m_packing.triangulation.vertexCount()),
 		m_excess(m_packing.triangulation.edgeCount()), m_ratio(m_packing.triangulation.edgeCount()),
 		m_halfWeights(m_packing.triangulation.halfedgeCount(), 0.0)
 {
@@ -57,6 +72,8 @@ template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluate(const VertexVector& u, const VertexVector& low)
 {
 	evaluateCircles(u, low);
+	if (m_flipsEdges)
+		flipToDelaunay();
 	evaluateEdges();
 	evaluateTriangles();
 }
@@ -68,6 +85,8 @@ void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
 	release(m_excess);
 	release(m_ratio);
 	release(m_halfWeights);
+	release(m_kappa);
+	release(m_queue);
 }
 
 template<class Geometry>
@@ -79,6 +98,18 @@ void GeometricCurvatureMap<Geometry>::evaluateCircles(
 		for (const Vertex v : IndexRange<Vertex>(first, last))
 			m_circles[v] = Geometry::circle(u[v], noLow ? 0.0 : low[v]);
 	});
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::flipToDelaunay()
+{
+	m_kappa.resize(m_circles.size());
+	for (const Vertex v : m_kappa.indices())
+		m_kappa[v] = m_circles[v].kappa;
+	const int flips = makeWeightedDelaunay(
+		m_packing.triangulation, m_packing.delta, m_kappa, m_journal, m_queue, m_threads);
+	if (flips > 0)
+		++m_revision;
 }
 
 template<class Geometry>
@@ -201,67 +232,14 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 	return true;
 }
 
-template<class Geometry>
-void FlippingCurvatureMap<Geometry>::evaluate(const VertexVector& u, const VertexVector& low)
-{
-	this->evaluateCircles(u, low);
-	m_kappa.resize(this->m_circles.size());
-	for (const Vertex v : m_kappa.indices())
-		m_kappa[v] = this->m_circles[v].kappa;
-	CirclePacking& packing = this->m_packing;
-	const int flips = makeWeightedDelaunay(
-		packing.triangulation, packing.delta, m_kappa, m_journal, m_queue, this->m_threads);
-	if (flips > 0)
-		++this->m_revision;
-	this->evaluateEdges();
-	this->evaluateTriangles();
-}
-
-template<class Geometry>
-void FlippingCurvatureMap<Geometry>::releaseWorkSpace()
-{
-	GeometricCurvatureMap<Geometry>::releaseWorkSpace();
-	release(m_kappa);
-	m_queue = DelaunayQueue();
-}
-
-template<class Geometry>
-void FlippingCurvatureMap<Geometry>::accept()
-{
-	for (const auto& [e, delta] : m_journal)
-		this->m_flips.push_back(e);
-	m_journal.clear();
-}
-
-template<class Geometry>
-void FlippingCurvatureMap<Geometry>::reject()
-{
-	if (!m_journal.empty())
-		++this->m_revision;
-	rewind(m_journal, this->m_packing.triangulation, this->m_packing.delta);
-}
-
 template class GeometricCurvatureMap<Euclidean>;
-template class FlippingCurvatureMap<Euclidean>;
 template class GeometricCurvatureMap<Hyperbolic>;
-template class FlippingCurvatureMap<Hyperbolic>;
-
-namespace {
-
-template<class Geometry>
-std::shared_ptr<CurvatureMap> mapIn(CirclePacking packing, bool flips)
-{
-	if (flips)
-		return std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
-	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
-}
-
-} // namespace
 
 std::shared_ptr<CurvatureMap> curvatureMap(CirclePacking packing, Background background, bool flips)
 {
-	return background == Background::EuclideanPlane ? mapIn<Euclidean>(std::move(packing), flips)
-													: mapIn<Hyperbolic>(std::move(packing), flips);
+	if (background == Background::EuclideanPlane)
+		return std::make_shared<GeometricCurvatureMap<Euclidean>>(std::move(packing), flips);
+	return std::make_shared<GeometricCurvatureMap<Hyperbolic>>(std::move(packing), flips);
 }
 
 namespace {
@@ -270,82 +248,6 @@ namespace {
 constexpr double kShiftGrowth = 100.0;
 
 } // namespace
-
-void Hessian::layOut(const CurvatureMap& map, const VertexArray<int>& row, int unknowns)
-{
-	const Triangulation& t = map.triangulation();
-	m_rowOfOrigin.resize(t.edgeCount());
-	m_rowOfTarget.resize(t.edgeCount());
-	m_offDiagonal.assign(t.edgeCount(), -1);
-	m_diagonal.resize(unknowns);
-
-	for (const Edge e : t.edges()) {
-		m_rowOfOrigin[e] = row[t.origin(e.halfedge())];
-		m_rowOfTarget[e] = row[t.target(e.halfedge())];
-	}
-	// Of each column the rows and their edges: no edge on the diagonal.
-	using Entry = std::pair<int, Edge>;
-	Adjacency<int, Entry> columns(unknowns, [&](const auto& add) {
-		for (int c = 0; c < unknowns; ++c)
-			add(c, Entry(c, Edge()));
-		for (const Edge e : t.edges()) {
-			const auto [low, high] = std::minmax(m_rowOfOrigin[e], m_rowOfTarget[e]);
-			if (low >= 0 && low != high)
-				add(low, Entry(high, e));
-		}
-	});
-	m_matrix.resize(unknowns, unknowns);
-	m_matrix.resizeNonZeros(static_cast<Eigen::Index>(columns.items().size()));
-	int* outer = m_matrix.outerIndexPtr();
-	int* inner = m_matrix.innerIndexPtr();
-	int slot = 0;
-	for (int c = 0; c < unknowns; ++c) {
-		const ItemRange<Entry> column = columns[c];
-		std::sort(column.begin(), column.end());
-		outer[c] = slot;
-		int last = -1;
-		for (const auto& [r, e] : column) {
-			if (r != last)
-				inner[slot++] = last = r;
-			(e.isValid() ? m_offDiagonal[e] : m_diagonal[c]) = slot - 1;
-		}
-	}
-	outer[unknowns] = slot;
-	m_matrix.resizeNonZeros(slot);
-}
-
-void Hessian::fill(const CurvatureMap& map, double shift)
-{
-	double* value = m_matrix.valuePtr();
-	std::fill(value, value + m_matrix.nonZeros(), 0.0);
-	for (const int slot : m_diagonal)
-		value[slot] = shift;
-	for (const Edge e : m_offDiagonal.indices()) {
-		const double w = map.weights()[e];
-		const double C = map.cosineLess1()[e];
-		const int a = m_rowOfOrigin[e], b = m_rowOfTarget[e];
-		if (a >= 0 && a == b) {
-			// A loop, or an edge between mirror images, has circles of one size at both ends: 2 w
-			// cosh(l) - 2 w.
-			value[m_diagonal[a]] += 2.0 * w * C;
-			continue;
-		}
-		if (a >= 0)
-			value[m_diagonal[a]] += w * (1.0 + C);
-		if (b >= 0)
-			value[m_diagonal[b]] += w * (1.0 + C);
-		if (m_offDiagonal[e] >= 0)
-			value[m_offDiagonal[e]] -= w;
-	}
-}
-
-double Hessian::largestDiagonal() const
-{
-	double largest = 0.0;
-	for (const int slot : m_diagonal)
-		largest = std::max(largest, m_matrix.valuePtr()[slot]);
-	return largest;
-}
 
 FactoredHessian::FactoredHessian(
 	const VertexArray<char>& fixed, bool scaleInvariant, const VertexArray<Vertex>& mirror) :
@@ -362,13 +264,82 @@ FactoredHessian::FactoredHessian(
 	}
 }
 
+/// Lays out the sparsity pattern for the connectivity of \p map. Vertices with one row have the same u: their
+/// rows of the whole matrix are added up, and their columns.
+void FactoredHessian::layOut(const CurvatureMap& map)
+{
+	const Triangulation& t = map.triangulation();
+	m_offDiagonal.assign(t.edgeCount(), -1);
+	m_diagonal.resize(m_unknowns);
+
+	// Of each column the rows and their edges: no edge on the diagonal.
+	using Entry = std::pair<int, Edge>;
+	Adjacency<int, Entry> columns(m_unknowns, [&](const auto& add) {
+		for (int c = 0; c < m_unknowns; ++c)
+			add(c, Entry(c, Edge()));
+		for (const Edge e : t.edges()) {
+			const auto [a, b] = t.ends(e);
+			const auto [low, high] = std::minmax({m_row[a], m_row[b]});
+			if (low >= 0 && low != high)
+				add(low, Entry(high, e));
+		}
+	});
+	m_matrix.resize(m_unknowns, m_unknowns);
+	m_matrix.resizeNonZeros(static_cast<Eigen::Index>(columns.items().size()));
+	int* outer = m_matrix.outerIndexPtr();
+	int* inner = m_matrix.innerIndexPtr();
+	int slot = 0;
+	for (int c = 0; c < m_unknowns; ++c) {
+		const ItemRange<Entry> column = columns[c];
+		std::sort(column.begin(), column.end());
+		outer[c] = slot;
+		int last = -1;
+		for (const auto& [r, e] : column) {
+			if (r != last)
+				inner[slot++] = last = r;
+			(e.isValid() ? m_offDiagonal[e] : m_diagonal[c]) = slot - 1;
+		}
+	}
+	outer[m_unknowns] = slot;
+	m_matrix.resizeNonZeros(slot);
+}
+
 void FactoredHessian::fill(const CurvatureMap& map, double shift)
 {
 	if (m_revision != map.revision()) {
-		m_hessian.layOut(map, m_row, m_unknowns);
+		layOut(map);
 		m_revision = map.revision();
 	}
-	m_hessian.fill(map, shift);
+	double* value = m_matrix.valuePtr();
+	std::fill(value, value + m_matrix.nonZeros(), 0.0);
+	for (const int slot : m_diagonal)
+		value[slot] = shift;
+	for (const Edge e : m_offDiagonal.indices()) {
+		const double w = map.weights()[e];
+		const double C = map.cosineLess1()[e];
+		const auto ends = map.triangulation().ends(e);
+		const int a = m_row[ends[0]], b = m_row[ends[1]];
+		if (a >= 0 && a == b) {
+			// A loop, or an edge between mirror images, has circles of one size at both ends: 2 w
+			// cosh(l) - 2 w.
+			value[m_diagonal[a]] += 2.0 * w * C;
+			continue;
+		}
+		if (a >= 0)
+			value[m_diagonal[a]] += w * (1.0 + C);
+		if (b >= 0)
+			value[m_diagonal[b]] += w * (1.0 + C);
+		if (m_offDiagonal[e] >= 0)
+			value[m_offDiagonal[e]] -= w;
+	}
+}
+
+double FactoredHessian::largestDiagonal() const
+{
+	double largest = 0.0;
+	for (const int slot : m_diagonal)
+		largest = std::max(largest, m_matrix.valuePtr()[slot]);
+	return largest;
 }
 
 bool FactoredHessian::factorize(const CurvatureMap& map)
@@ -376,12 +347,12 @@ bool FactoredHessian::factorize(const CurvatureMap& map)
 	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
 	fill(map, shift);
 	m_isFactored = false;
-	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-	while (!m_cholesky.factorize(m_hessian.matrix())) {
+	const double scale = std::max(largestDiagonal(), 1.0);
+	while (!m_cholesky.factorize(m_matrix)) {
 		shift = std::max(kShiftGrowth * shift, kManyRoundings * scale);
 		if (!(shift <= scale) || std::isinf(shift))
 			throw SolverFailed(SolverFailed::Flow);
-		m_hessian.fill(map, shift);
+		fill(map, shift);
 	}
 	m_isFactored = true;
 	m_isShifted = shift > 0.0;

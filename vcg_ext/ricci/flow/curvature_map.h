@@ -67,10 +67,10 @@ public:
 	/// the same.
 	int revision() const { return m_revision; }
 
-	/// Keeps the connectivity that the last evaluate() left; reject() returns to the one that was
-	/// kept last.
-	virtual void accept() {}
-	virtual void reject() {}
+	/// Keeps the connectivity that the last evaluate() left.
+	void accept();
+	/// Returns to the connectivity that was kept last.
+	void reject();
 
 	/// Edges that evaluate() flipped since the start, in order, up to the last accept().
 	const std::vector<Edge>& flips() const { return m_flips; }
@@ -90,6 +90,7 @@ protected:
 	explicit CurvatureMap(CirclePacking packing);
 
 	CirclePacking m_packing;
+	FlipJournal m_journal; // since the last accept()
 	VertexArray<char> m_boundary;
 	VertexVector m_curvature;
 	EdgeArray<double> m_lengths, m_weights, m_cosineLess1;
@@ -101,90 +102,51 @@ protected:
 	int m_revision = 0;
 };
 
-/// CurvatureMap on a triangulation that stays, in the background geometry \p Geometry
-/// (EuclideanGeometry, HyperbolicGeometry).
+/// CurvatureMap in the background geometry \p Geometry (Euclidean, Hyperbolic).
 template<class Geometry>
 class GeometricCurvatureMap : public CurvatureMap
 {
 public:
-	explicit GeometricCurvatureMap(CirclePacking packing);
+	/// \param flips whether the triangulation becomes the weighted Delaunay one of every u, by flips that
+	/// keep the conformal class (conformal_flip.h); else it stays. K(u) then is continuously differentiable
+	/// for all u, no triangle breaks, and all weights are non-negative (off the boundary, whose edges stay):
+	/// in the Euclidean plane [Bobenko Lutz 2023], in the hyperbolic plane [Bobenko Lutz 2023b].
+	explicit GeometricCurvatureMap(CirclePacking packing, bool flips = false);
 
 	using CurvatureMap::evaluate;
 	void evaluate(const VertexVector& u, const VertexVector& low) override;
 	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
 	void releaseWorkSpace() override;
 
-protected:
+private:
 	void evaluateCircles(const VertexVector& u, const VertexVector& low);
+	void flipToDelaunay();
 	void evaluateEdges();
 	void evaluateTriangles();
 	bool evaluateTriangle(Face f, double& needleRatio);
 
+	const bool m_flipsEdges;
 	VertexArray<typename Geometry::Circle> m_circles;
 	EdgeArray<double> m_excess;          // length less the radii
 	EdgeArray<double> m_ratio;           // s_i s_j / S_ij^2
 	HalfedgeArray<double> m_halfWeights; // the triangle's share of the weight
-};
-
-/// The same map on the weighted Delaunay triangulation of every u, reached by flips that keep the
-/// conformal class (conformal_flip.h). K(u) then is continuously differentiable for all u, no
-/// triangle breaks, and all weights are non-negative (off the boundary, whose edges stay): in the
-/// Euclidean plane [Bobenko Lutz 2023], in the hyperbolic plane [Bobenko Lutz 2023b].
-template<class Geometry>
-class FlippingCurvatureMap : public GeometricCurvatureMap<Geometry>
-{
-public:
-	using GeometricCurvatureMap<Geometry>::GeometricCurvatureMap;
-
-	using CurvatureMap::evaluate;
-	void evaluate(const VertexVector& u, const VertexVector& low) override;
-	void releaseWorkSpace() override;
-	void accept() override;
-	void reject() override;
-
-private:
-	VertexArray<double> m_kappa;
-	FlipJournal m_journal;
+	VertexArray<double> m_kappa;         // where edges flip
 	DelaunayQueue m_queue;
 };
 
 /// The map of \p packing in \p background.
-/// \param flips whether it is a FlippingCurvatureMap
+/// \param flips see GeometricCurvatureMap
 std::shared_ptr<CurvatureMap>
 curvatureMap(CirclePacking packing, Background background, bool flips);
 
 /// The derivative of the curvature by u (Eq. 11), the Hessian of the Ricci energy, restricted to
 /// the unknown vertices: -w_ij off the diagonal, the sum of w_ij cosh l_ij on it (in the Euclidean
-/// plane of w_ij). Symmetric, positive semi-definite wherever all triangles exist; only the lower
-/// triangle is stored.
-class Hessian
+/// plane of w_ij). Symmetric, positive semi-definite wherever all triangles exist. With a Cholesky factor.
+class FactoredHessian
 {
 public:
 	using Matrix = Eigen::SparseMatrix<double>;
 
-	/// Lays out the sparsity pattern for the connectivity of \p map. \p row gives each vertex the
-	/// row of its unknown, 0 to \p unknowns - 1, or -1 where u is fixed. Vertices with one row have
-	/// the same u: their rows of the whole matrix are added up, and their columns.
-	void layOut(const CurvatureMap& map, const VertexArray<int>& row, int unknowns);
-
-	/// Fills the values at the state of \p map and adds \p shift to the diagonal.
-	/// \pre the connectivity is that of the last layOut()
-	void fill(const CurvatureMap& map, double shift);
-
-	const Matrix& matrix() const { return m_matrix; }
-	double largestDiagonal() const;
-
-private:
-	Matrix m_matrix;
-	Array<int> m_diagonal;                       // [row] slot in the value array
-	EdgeArray<int> m_offDiagonal;                // slot, or -1
-	EdgeArray<int> m_rowOfOrigin, m_rowOfTarget; // or -1
-};
-
-/// The Hessian of the Ricci energy on the unknown vertices, with a Cholesky factor.
-class FactoredHessian
-{
-public:
 	/// \p fixed: 1 where u is not an unknown. Where nothing is fixed and \p scaleInvariant, one row is
 	/// redundant: the first vertex is not an unknown either.
 	/// \param mirror images of the vertices of a symmetric surface, or empty. A vertex and its image
@@ -199,7 +161,8 @@ public:
 	/// Row of the vertex's unknown, or -1.
 	const VertexArray<int>& row() const { return m_row; }
 
-	const Hessian& hessian() const { return m_hessian; }
+	/// Its lower triangle.
+	const Matrix& matrix() const { return m_matrix; }
 	SparseCholesky& cholesky() { return m_cholesky; }
 	const SparseCholesky& cholesky() const { return m_cholesky; }
 
@@ -223,12 +186,17 @@ public:
 	VertexVector scatter(const Eigen::VectorXd& rows) const;
 
 private:
+	void layOut(const CurvatureMap& map);
+	double largestDiagonal() const;
+
 	VertexArray<int> m_row;
 	int m_unknowns = 0;
 	int m_revision = -1; // of the map, when the pattern was laid out
 	bool m_isFactored = false;
 	bool m_isShifted = false;
-	Hessian m_hessian;
+	Matrix m_matrix;
+	Array<int> m_diagonal;        // [row] slot in the value array
+	EdgeArray<int> m_offDiagonal; // slot, or -1
 	SparseCholesky m_cholesky;
 };
 

@@ -53,49 +53,8 @@ double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 	return max - min;
 }
 
-} // namespace
-
-InscribedPolygon inscribedPolygon(const std::vector<double>& sides)
-{
-	const auto longestSide = std::max_element(sides.begin(), sides.end());
-	const double longest = *longestSide;
-	// Sum of the arcs less 2 pi as a function of the radius: decreasing while the centre is inside.
-	// If it is negative already where the longest side is a diameter, the centre lies beyond that
-	// side, whose arc then is the larger of the two.
-	const auto excess = [&](double radius, bool outside) {
-		double sum = 0.0;
-		for (auto side = sides.begin(); side != sides.end(); ++side)
-			sum += outside && side == longestSide ? 2 * kPi - arcOf(*side, radius)
-												  : arcOf(*side, radius);
-		return sum - 2 * kPi;
-	};
-	const bool outside = excess(0.5 * longest, false) < 0.0;
-	const auto isTooLarge = [&](double radius) {
-		return outside ? excess(radius, true) > 0.0 : excess(radius, false) < 0.0;
-	};
-	double min = 0.5 * longest, max = longest;
-	while (!isTooLarge(max) && std::isfinite(max))
-		max *= 2.0;
-	for (int i = 0; i < kMaxBisections; ++i) {
-		const double middle = 0.5 * (min + max);
-		double& bound = isTooLarge(middle) ? max : min;
-		if (bound == middle) // no double lies between the two
-			break;
-		bound = middle;
-	}
-	InscribedPolygon polygon;
-	polygon.radius = 0.5 * (min + max);
-	double sum = 0.0;
-	for (auto side = sides.begin(); side != sides.end(); ++side) {
-		const double arc = arcOf(*side, polygon.radius);
-		polygon.arcs.push_back(outside && side == longestSide ? 2 * kPi - arc : arc);
-		sum += polygon.arcs.back();
-	}
-	for (double& arc : polygon.arcs)
-		arc *= 2 * kPi / sum;
-	return polygon;
-}
-
+/// Exterior angle at each corner of the inscribed polygon with these arcs, radians: half the sum of
+/// the two adjacent arcs.
 std::vector<double> exteriorAngles(const std::vector<double>& arcs)
 {
 	std::vector<double> angles(arcs.size());
@@ -104,6 +63,9 @@ std::vector<double> exteriorAngles(const std::vector<double>& arcs)
 	return angles;
 }
 
+/// Arcs after the Moebius transformation of the disk that brings the conformal barycentre of the
+/// corners, weighted by \p weights, to the centre [Douady Earle 1986]. It exists and is unique up
+/// to rotation while no weight is half of the sum or more; otherwise \p arcs is returned.
 std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vector<double>& weights)
 {
 	const std::size_t n = arcs.size();
@@ -149,42 +111,6 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 	return centred;
 }
 
-NewtonResult solveForCircle(
-	const std::vector<double>& sides,
-	double epsilon,
-	const BoundaryLengths& presentSides,
-	const SolveForAngles& solve,
-	std::vector<double>& arcs)
-{
-	std::vector<double> weights(sides.size());
-	for (std::size_t i = 0; i < sides.size(); ++i)
-		weights[i] = sides[i] + sides[(i + sides.size() - 1) % sides.size()];
-	if (arcs.empty())
-		arcs = centredArcs(inscribedPolygon(sides).arcs, weights);
-	AndersonMixing mixing(kMixingDepth);
-	double change = 1.0;
-	for (int step = 0; step < kMaxCircleSteps; ++step) {
-		const bool last = change < kCircleTolerance;
-		const double accuracy =
-			last ? epsilon : std::max(epsilon, std::min(kInnerAccuracy, kInnerAccuracy * change));
-		const NewtonResult result = solve(exteriorAngles(arcs), accuracy);
-		if (last || !result.converged)
-			return result;
-		const std::vector<double> image =
-			centredArcs(inscribedPolygon(presentSides()).arcs, weights);
-		change = largestTurn(image, arcs);
-		std::vector<double> next = mixing.next(arcs, image);
-		if (*std::min_element(next.begin(), next.end()) <= 0.0) {
-			mixing.restart();
-			next = image;
-		}
-		arcs = std::move(next);
-	}
-	throw NotConverged(NotConverged::CircleUnsettled, 0, change);
-}
-
-namespace {
-
 /// Residual of a double, in radians, beyond which symmetric steps do not do: rounding has made its
 /// copies different.
 constexpr double kMaxAsymmetry = 1e-10;
@@ -192,20 +118,8 @@ constexpr double kMaxAsymmetry = 1e-10;
 /// Bound of u at a hyperbolic start, below the 0 that stands for an infinite radius.
 constexpr double kMaxStartU = -1e-3;
 
-} // namespace
-
-InitialPacking
-initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options)
-{
-	if (options.method == Method::IntrinsicFlips)
-		return delaunayPacking(std::move(mesh), mirror);
-	InitialPacking packing = inputPacking(std::move(mesh));
-	if (options.method == Method::Thurston)
-		packing.delta = thurstonDistancesLessOne(
-			packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
-	return packing;
-}
-
+/// The target on the double of a surface, whose curvature is twice as large on the boundary.
+/// \param mirror [vertex of the double] its image in the other copy
 Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 {
 	const int vertices = target.fixed.size();
@@ -219,6 +133,61 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 		target.fixed[image] = target.fixed[v];
 	}
 	return target;
+}
+
+} // namespace
+
+std::vector<double> inscribedArcs(const std::vector<double>& sides)
+{
+	const auto longestSide = std::max_element(sides.begin(), sides.end());
+	const double longest = *longestSide;
+	// Sum of the arcs less 2 pi as a function of the radius: decreasing while the centre is inside.
+	// If it is negative already where the longest side is a diameter, the centre lies beyond that
+	// side, whose arc then is the larger of the two.
+	const auto excess = [&](double radius, bool outside) {
+		double sum = 0.0;
+		for (auto side = sides.begin(); side != sides.end(); ++side)
+			sum += outside && side == longestSide ? 2 * kPi - arcOf(*side, radius)
+												  : arcOf(*side, radius);
+		return sum - 2 * kPi;
+	};
+	const bool outside = excess(0.5 * longest, false) < 0.0;
+	const auto isTooLarge = [&](double radius) {
+		return outside ? excess(radius, true) > 0.0 : excess(radius, false) < 0.0;
+	};
+	double min = 0.5 * longest, max = longest;
+	while (!isTooLarge(max) && std::isfinite(max))
+		max *= 2.0;
+	for (int i = 0; i < kMaxBisections; ++i) {
+		const double middle = 0.5 * (min + max);
+		double& bound = isTooLarge(middle) ? max : min;
+		if (bound == middle) // no double lies between the two
+			break;
+		bound = middle;
+	}
+	const double radius = 0.5 * (min + max);
+	std::vector<double> arcs;
+	double sum = 0.0;
+	for (auto side = sides.begin(); side != sides.end(); ++side) {
+		const double arc = arcOf(*side, radius);
+		arcs.push_back(outside && side == longestSide ? 2 * kPi - arc : arc);
+		sum += arcs.back();
+	}
+	for (double& arc : arcs)
+		arc *= 2 * kPi / sum;
+	return arcs;
+}
+
+InitialPacking
+initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options)
+{
+	if (options.method == Method::IntrinsicFlips)
+		return delaunayPacking(std::move(mesh), mirror);
+	InitialPacking packing = inputPacking(std::move(mesh));
+	if (options.method == Method::Thurston)
+		packing.delta = thurstonDistancesLessOne(
+			packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
+	return packing;
 }
 
 void FlowProgress::operator()(int step, double residual)
@@ -238,7 +207,9 @@ void FlowProgress::operator()(int step, double residual)
 		std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
 }
 
-FlowRun::FlowRun(const FlowOptions& options, FlowProgress& progress) :
+FlowRun::FlowRun(
+	const EmbeddedSurface& surface, const FlowOptions& options, FlowProgress& progress) :
+		m_surface(surface),
 		m_options(options), m_progress(progress)
 {
 }
@@ -249,12 +220,12 @@ FlowRun::FlowRun(
 	const Target& target,
 	const FlowOptions& options,
 	FlowProgress& progress) :
-		FlowRun(options, progress)
+		FlowRun(surface, options, progress)
 {
 	m_result.input = surface.triangulation;
 	m_result.start = std::move(start);
 	m_result.target = target;
-	begin(surface);
+	begin();
 }
 
 FlowRun FlowRun::onDouble(
@@ -263,7 +234,7 @@ FlowRun FlowRun::onDouble(
 	const FlowOptions& options,
 	FlowProgress& progress)
 {
-	FlowRun run(options, progress);
+	FlowRun run(surface, options, progress);
 	DoubleSurface d = doubleOf(surface.triangulation);
 	IntrinsicMesh mesh{d.triangulation, EdgeArray<double>(d.edgeOf.size())};
 	for (const Edge e : d.edgeOf.indices())
@@ -273,22 +244,12 @@ FlowRun FlowRun::onDouble(
 	run.m_result.start = initialPacking(std::move(mesh), d.mirror, options);
 	run.m_result.target = targetOnDouble(target, d.mirror);
 	run.m_mirror = std::move(d.mirror);
-	run.begin(surface);
+	run.begin();
 	return run;
 }
 
-void FlowRun::begin(const EmbeddedSurface& surface)
+void FlowRun::begin()
 {
-	m_vertexCount = surface.triangulation.vertexCount();
-	if (m_result.target.circular) {
-		m_loop = surface.topology.loops.front();
-		for (const Vertex v : m_loop) {
-			const Edge e = surface.triangulation.halfedge(v).edge();
-			m_loopEdges.push_back(e);
-			m_loopLengths.push_back(
-				m_result.start.lengthened.lengthOf(surface.triangulation, e, surface.lengths[e]));
-		}
-	}
 	m_result.u = m_startU = startU();
 	m_map = curvatureMap(
 		{m_result.start.mesh.triangulation, m_result.start.delta},
@@ -362,31 +323,48 @@ bool FlowRun::solveRoughly(double epsilon)
 	return m_solved.converged;
 }
 
+/// A disk that becomes round (paper 5.2): its boundary is inscribed in a circle. The exterior angles
+/// follow the boundary's lengths, solve by solve (a fixed point, with Anderson mixing), and the Moebius
+/// freedom of the disk is fixed by the conformal barycentre of the original boundary, which is brought to
+/// the centre. It ends once the points on the circle stand still, after one more solve.
+/// \return the result of the last solve, which is the first one that did not converge if any
+/// \throw NotConverged (CircleUnsettled)
 NewtonResult FlowRun::solveOnCircle()
 {
-	VertexVector& curvature = m_result.target.curvature;
-	const double copies = m_result.doubled ? 2.0 : 1.0;
-	int solves = 0;
-	const auto solveForAngles = [&](const std::vector<double>& angles, double epsilon) {
-		if (++solves > 1)
+	const std::vector<Vertex>& loop = m_surface.topology.loops.front();
+	std::vector<double> sides, weights;
+	for (const Edge e : loopEdges())
+		sides.push_back(
+			m_result.start.lengthened.lengthOf(m_surface.triangulation, e, m_surface.lengths[e]));
+	for (std::size_t i = 0; i < sides.size(); ++i)
+		weights.push_back(sides[i] + sides[(i + sides.size() - 1) % sides.size()]);
+	if (m_arcs.empty())
+		m_arcs = centredArcs(inscribedArcs(sides), weights);
+	AndersonMixing mixing(kMixingDepth);
+	double change = 1.0;
+	for (int step = 0; step < kMaxCircleSteps; ++step) {
+		if (step > 0)
 			logLine(
-				"Solve " + std::to_string(solves) +
+				"Solve " + std::to_string(step + 1) +
 				" for the circle: its angles are updated to the present lengths of the boundary.");
+		const std::vector<double> angles = exteriorAngles(m_arcs);
 		for (std::size_t i = 0; i < angles.size(); ++i)
-			curvature[m_loop[i]] = copies * angles[i];
-		return m_solved = solveFor(epsilon);
-	};
-	try {
-		return solveForCircle(
-			m_loopLengths,
-			m_options.epsilon,
-			[&] { return presentLoopLengths(); },
-			solveForAngles,
-			m_arcs);
+			m_result.target.curvature[loop[i]] = (m_result.doubled ? 2.0 : 1.0) * angles[i];
+		const bool last = change < kCircleTolerance;
+		const double inner = std::min(kInnerAccuracy, kInnerAccuracy * change);
+		m_solved = solveFor(last ? m_options.epsilon : std::max(m_options.epsilon, inner));
+		if (last || !m_solved.converged)
+			return m_solved;
+		const std::vector<double> image = centredArcs(inscribedArcs(presentLoopLengths()), weights);
+		change = largestTurn(image, m_arcs);
+		std::vector<double> next = mixing.next(m_arcs, image);
+		if (*std::min_element(next.begin(), next.end()) <= 0.0) {
+			mixing.restart();
+			next = image;
+		}
+		m_arcs = std::move(next);
 	}
-	catch (const NotConverged& error) {
-		throw withState(error);
-	}
+	throw withState(NotConverged(NotConverged::CircleUnsettled, 0, change));
 }
 
 NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
@@ -423,12 +401,22 @@ double FlowRun::spreadOfScales() const
 	return (change.maxCoeff() - change.minCoeff()) / std::log(10.0);
 }
 
+/// The edges of the boundary loop, from each of its vertices to the next.
+std::vector<Edge> FlowRun::loopEdges() const
+{
+	std::vector<Edge> edges;
+	for (const Vertex v : m_surface.topology.loops.front())
+		edges.push_back(m_surface.triangulation.halfedge(v).edge());
+	return edges;
+}
+
 /// Lengths of the boundary's edges in the present metric. In a double they may have been flipped
 /// away; they stay the axis of symmetry, a straight line across the present triangles.
 std::vector<double> FlowRun::presentLoopLengths() const
 {
+	const std::vector<Edge> edges = loopEdges();
 	std::vector<double> lengths;
-	for (const Edge e : m_loopEdges)
+	for (const Edge e : edges)
 		lengths.push_back(m_map->lengths()[e]);
 	if (!m_result.doubled)
 		return lengths;
@@ -440,7 +428,7 @@ std::vector<double> FlowRun::presentLoopLengths() const
 	const auto curves = coordinates.trace();
 	Strip strip;
 	for (std::size_t i = 0; i < lengths.size(); ++i) {
-		const NormalCoordinates::Curve& curve = curves[m_loopEdges[i]];
+		const NormalCoordinates::Curve& curve = curves[edges[i]];
 		if (curve.crossings.empty()) {
 			lengths[i] = m_map->lengths()[curve.first.edge()];
 			continue;
@@ -471,9 +459,10 @@ FlowResult FlowRun::result()
 	m_result.area = m_result.target.background == Background::EuclideanPlane
 						? euclideanArea(m_map->triangulation(), m_map->lengths())
 						: hyperbolicArea(m_map->triangulation(), m_map->lengths());
-	m_result.curvature = m_map->curvature().head(m_vertexCount);
-	m_result.target.curvature.conservativeResize(m_vertexCount);
-	m_result.target.fixed.resize(m_vertexCount);
+	const int vertexCount = m_surface.triangulation.vertexCount();
+	m_result.curvature = m_map->curvature().head(vertexCount);
+	m_result.target.curvature.conservativeResize(vertexCount);
+	m_result.target.fixed.resize(vertexCount);
 	if (m_result.doubled) {
 		m_result.area *= 0.5;
 		for (const Vertex v : m_result.curvature.indices())

@@ -9,69 +9,22 @@
 #include "ricci_flow.h"
 #include "target.h"
 
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace ricci {
 
-/// Polygon inscribed in a circle. Side i runs from corner i to corner i + 1 (cyclic).
-struct InscribedPolygon
-{
-	double radius = 0.0;
-	std::vector<double> arcs; ///< [side] central angle in radians; they add up to 2 pi
-};
-
-/// The one polygon inscribed in a circle with these side lengths, in this order. The centre may lie
-/// outside the polygon.
+/// [side] Central angle in radians, all of which add up to 2 pi, of each side of the one polygon inscribed in a
+/// circle with these side lengths, in this order. The centre may lie outside the polygon.
 /// \pre each side is less than the sum of the others
-InscribedPolygon inscribedPolygon(const std::vector<double>& sides);
-
-/// Exterior angle at each corner of the inscribed polygon with these arcs, radians: half the sum of
-/// the two adjacent arcs.
-std::vector<double> exteriorAngles(const std::vector<double>& arcs);
-
-/// Arcs after the Moebius transformation of the disk that brings the conformal barycentre of the
-/// corners, weighted by \p weights, to the centre [Douady Earle 1986]. It exists and is unique up
-/// to rotation while no weight is half of the sum or more; otherwise \p arcs is returned.
-std::vector<double>
-centredArcs(const std::vector<double>& arcs, const std::vector<double>& weights);
-
-/// Present lengths of the boundary's edges.
-using BoundaryLengths = std::function<std::vector<double>()>;
-
-/// Solves for exterior angles at the boundary's vertices, in radians, up to an epsilon.
-using SolveForAngles =
-	std::function<NewtonResult(const std::vector<double>& angles, double epsilon)>;
-
-/// Solves for a disk that becomes round (paper 5.2): its boundary is inscribed in a circle. The
-/// exterior angles follow the boundary's lengths, solve by solve (a fixed point, with Anderson
-/// mixing), and the Moebius freedom of the disk is fixed by the conformal barycentre of the
-/// original boundary, which is brought to the centre. It ends once the points on the circle stand
-/// still, after one more solve, to \p epsilon.
-///
-/// All arrays follow the vertices of the boundary loop, and its edges from each one to the next.
-/// \param sides lengths of the boundary's edges before the flow
-/// \param arcs where to start, or empty; afterwards those of the last solve
-/// \return the result of the last solve, which is the first one that did not converge if any
-/// \throw NotConverged (CircleUnsettled), and what \p solve throws
-NewtonResult solveForCircle(
-	const std::vector<double>& sides,
-	double epsilon,
-	const BoundaryLengths& presentSides,
-	const SolveForAngles& solve,
-	std::vector<double>& arcs);
+std::vector<double> inscribedArcs(const std::vector<double>& sides);
 
 /// The packing in which a flow with these options starts: with intrinsic flips on the weighted
 /// Delaunay triangulation of \p mesh, else on its own.
 /// \param mirror see delaunayPacking()
 InitialPacking
 initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options);
-
-/// The target on the double of a surface, whose curvature is twice as large on the boundary.
-/// \param mirror [vertex of the double] its image in the other copy
-Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror);
 
 /// Tells the task of each Newton step of a flow. The residual falls by orders of magnitude, so each step
 /// closes a part of the distance to epsilon on the logarithmic scale.
@@ -99,7 +52,8 @@ private:
 class FlowRun
 {
 public:
-	/// On \p surface, from its initial packing. \p options and \p progress must live as long as the run.
+	/// On \p surface, from its initial packing. \p surface, \p options and \p progress must live as long as
+	/// the run.
 	FlowRun(
 		const EmbeddedSurface& surface,
 		InitialPacking start,
@@ -148,32 +102,29 @@ public:
 	NotConverged failure() const;
 
 private:
-	FlowRun(const FlowOptions& options, FlowProgress& progress);
-	void begin(const EmbeddedSurface& surface);
+	FlowRun(const EmbeddedSurface& surface, const FlowOptions& options, FlowProgress& progress);
+	void begin();
 	VertexVector startU() const;
 	NewtonResult solveOnCircle();
 	NewtonResult solveFor(double epsilon, bool polishes = true);
 	double spreadOfScales() const;
+	std::vector<Edge> loopEdges() const;
 	std::vector<double> presentLoopLengths() const;
 	NotConverged withState(NotConverged error) const;
 
+	const EmbeddedSurface&
+		m_surface; // its vertices and edges have the lowest numbers in its double
 	const FlowOptions& m_options;
 	FlowProgress& m_progress;
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;          // its target is that on the double, if there is one
 	VertexArray<Vertex> m_mirror; // [vertex of a double] its image; empty on the surface
-	int m_vertexCount = 0;        // of the surface, whose numbers are the lowest in its double
 	int m_maxSteps = NewtonOptions().maxIterations;
 	VertexVector m_startU;
 	std::shared_ptr<CurvatureMap> m_map;
 	std::unique_ptr<NewtonSolver> m_newton;
 	NewtonResult m_solved;
-
-	// Of a circular target: the boundary's vertices in order, the edge from each one to the next, the
-	// lengths of these edges before the flow, and the arcs of the solution.
-	std::vector<Vertex> m_loop;
-	std::vector<Edge> m_loopEdges;
-	std::vector<double> m_loopLengths, m_arcs;
+	std::vector<double> m_arcs; // of a circular target: those of the sides of the boundary loop
 };
 
 } // namespace ricci

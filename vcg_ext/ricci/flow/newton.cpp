@@ -239,7 +239,7 @@ bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 	if (usable && (!m_worn || keepsFactor)) {
 		const int limit = solutionsPerFactorization(cholesky);
 		const int iterations =
-			cholesky.iterate(m_hessian->hessian().matrix(), rhs, accuracy, limit, solution);
+			cholesky.iterate(m_hessian->matrix(), rhs, accuracy, limit, solution);
 		solved = iterations <= limit;
 		m_worn = 2 * iterations > limit;
 	}

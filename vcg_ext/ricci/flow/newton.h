@@ -37,10 +37,9 @@ struct NewtonResult
 /// d = -H^-1 (K - target) wherever the Hessian H is positive definite: the derivative of
 /// |K - target|^2 along d is -2 |K - target|^2.
 ///
-/// On a closed surface with flips (FlippingCurvatureMap) H is continuous and positive definite for
+/// On a closed surface with flips H is continuous and positive definite for
 /// all u (in the Euclidean plane with one vertex pinned), so that the norm is stationary at the
-/// solution only. On a triangulation that stays (GeometricCurvatureMap, and the boundary of the
-/// other) H jumps where triangles break, and may be singular beyond: the norm may be stationary
+/// solution only. On a triangulation that stays, and at a boundary, H jumps where triangles break, and may be singular beyond: the norm may be stationary
 /// where the energy is not minimal. Where it no longer falls and triangles are broken, steps are
 /// searched by the energy's slope instead: a step is as long as the energy still falls at its end,
 /// (K - target) . d < 0 there. That lowers the convex energy E without its value, because

@@ -7,6 +7,15 @@
 
 namespace ricci {
 
+/// An edge between two circles.
+struct PackedEdge
+{
+	double length;      ///< Eq. 4; NaN if the circles are nested (I < -1)
+	double excess;      ///< length less the sum of the radii, without cancellation
+	double sine2;       ///< square of the function of the law of sines: length^2, or sinh^2(length)
+	double cosineLess1; ///< cosh(length) - 1; 0 in the Euclidean plane
+};
+
 /// Euclidean background geometry (Definition 3.1): what the flow needs to know of a circle and of
 /// an edge. The struct Hyperbolic has the same members, so that the flow is written once.
 ///
@@ -31,16 +40,8 @@ struct Euclidean
 		return {radius, radius, 1 / radius};
 	}
 
-	struct Edge
-	{
-		double length;      ///< Eq. 4; NaN if the circles are nested (I < -1)
-		double excess;      ///< length less the sum of the radii, without cancellation
-		double sine2;       ///< square of the length function of the law of sines: length^2
-		double cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
-	};
-
 	/// Eq. 4 written with delta: l^2 = (gi + gj)^2 + 2 delta gi gj.
-	static Edge edge(const Circle& i, const Circle& j, double delta)
+	static PackedEdge edge(const Circle& i, const Circle& j, double delta)
 	{
 		const double sum = i.radius + j.radius, p = 2 * delta * i.radius * j.radius;
 		const double length2 = sum * sum + p, length = std::sqrt(length2);
@@ -101,18 +102,10 @@ struct Hyperbolic
 			coshHalf + sinhHalf * s * low / 2};
 	}
 
-	struct Edge
-	{
-		double length;      ///< Eq. 4
-		double excess;      ///< length less the sum of the radii, without cancellation
-		double sine2;       ///< sinh^2(length)
-		double cosineLess1; ///< cosh(length) - 1
-	};
-
 	/// Eq. 4, cosh l = cosh gi cosh gj + I sinh gi sinh gj, written for half the length: with
 	/// q = delta sinh gi sinh gj / 2 and S = sinh(l / 2),
 	/// S^2 - sinh^2((gi + gj) / 2) = q = sinh((l - gi - gj) / 2) sinh((l + gi + gj) / 2).
-	static Edge edge(const Circle& i, const Circle& j, double delta)
+	static PackedEdge edge(const Circle& i, const Circle& j, double delta)
 	{
 		const double q = delta * i.s * j.s / 2;
 		const double sinhSum = i.sinhHalf * j.coshHalf + i.coshHalf * j.sinhHalf;
