@@ -416,6 +416,7 @@ std::vector<double> FlowRun::presentLoopLengths() const
 {
 	const std::vector<Edge> edges = loopEdges();
 	std::vector<double> lengths;
+	lengths.reserve(edges.size());
 	for (const Edge e : edges)
 		lengths.push_back(m_map->lengths()[e]);
 	if (!m_result.doubled)
