@@ -7,7 +7,7 @@
 namespace ricci {
 
 /// How a metric changes areas. The area factor s of a triangle is its share of the area in the metric
-/// over its share of that in space. See AreaDistortion, which measures a drawn map in the same way.
+/// over its share of that in space. See areaDistortion(), which measures a drawn map in the same way.
 struct AreaChange
 {
 	double mean = 1.0;   ///< of max(s, 1/s), weighted by the area in space

@@ -26,7 +26,7 @@ struct PlacedCones
 	std::vector<Vertex> vertices;   ///< increasing
 	std::vector<double> curvatures; ///< radians, at most kMaxConeCurvature, never 0
 	/// Standard deviation by area of 2 u, the logarithm of the change of areas
-	/// (AreaDistortion::spread), as the linear problem predicts it.
+	/// (Report::areaDistortionSpread), as the linear problem predicts it.
 	double distortion = 0.0;
 	/// Length of the seams that are to be expected, and of those without cones, in units of the square
 	/// root of the area.
