@@ -8,7 +8,6 @@
 
 #include <ricci/base/graphs.h>
 #include <ricci/cut/cut_graph.h>
-#include <ricci/cut/shorten_cut.h>
 #include <ricci/error.h>
 #include <ricci/layout/planar_layout.h>
 #include <ricci/mesh/triangulation.h>

@@ -117,21 +117,20 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 		const CutGraph cut = cutToDisk(t, metric.lengths(), cones);
 		const HyperbolicLayout layout =
 			layOutInDisk(t, metric.lengths(), metric.angles(), cut.isCut);
+		const auto at = [&](Halfedge h) { return Complex(layout[h].origin()); };
 		std::complex<long double> moment = 0.0L;
 		for (const Halfedge h : t.interiorHalfedges()) {
-			const auto z = wide(layout.frame[h].origin());
-			const auto w = wide(layout.frame[t.next(h)].origin());
-			const auto x = wide(layout.frame[t.previous(h)].origin());
+			const auto z = wide(layout[h].origin());
+			const auto w = wide(layout[t.next(h)].origin());
+			const auto x = wide(layout[t.previous(h)].origin());
 			ASSERT_LT(std::abs(z), 1.0L);
 			const double length = metric.lengths()[h.edge()];
 			EXPECT_NEAR(static_cast<double>(distanceInDisk(z, w)) / length, 1.0, 1e-11);
-			EXPECT_NEAR(
-				chordLength(layout[h], layout[t.next(h)]) / (2 * std::sinh(length / 2)), 1.0, 1e-8);
+			EXPECT_NEAR(chordLength(at(h), at(t.next(h))) / (2 * std::sinh(length / 2)), 1.0, 1e-8);
 			EXPECT_NEAR(static_cast<double>(angleInDisk(z, w, x)), metric.angles()[h], 1e-10);
-			EXPECT_EQ(
-				hyperbolicOrientation(layout[h], layout[t.next(h)], layout[t.previous(h)]), 1);
+			EXPECT_EQ(hyperbolicOrientation(at(h), at(t.next(h)), at(t.previous(h))), 1);
 			// The frame looks along the halfedge.
-			const auto ahead = wide(layout.frame[h].inverse()(layout.frame[t.next(h)].origin()));
+			const auto ahead = wide(layout[h].inverse()(layout[t.next(h)].origin()));
 			EXPECT_LT(static_cast<double>(std::abs(ahead.imag())), 1e-12);
 			EXPECT_GT(ahead.real(), 0.0L);
 			// Its vector on the hyperboloid, by the area round it.
@@ -151,8 +150,7 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 			offerPairing(layout, metric.lengths()[e], h, g, pairing);
 			for (const auto& [from, to] : {std::pair(t.next(g), h), std::pair(g, t.next(h))})
 				EXPECT_LT(
-					std::abs(Complex(pairing.isometry()(layout.frame[from].origin())) - layout[to]),
-					1e-10);
+					std::abs(Complex(pairing.isometry()(layout[from].origin())) - at(to)), 1e-10);
 			if (!cut.isCut[e]) {
 				EXPECT_LT(static_cast<double>(pairing.isometry().distanceFromIdentity()), 1e-9);
 			}

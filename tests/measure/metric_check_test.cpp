@@ -6,9 +6,8 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/hyperbolic/closing_error.h>
 #include <ricci/hyperbolic/group_of_cut.h>
-#include <ricci/measure/metric_check.h>
+#include <ricci/measure/map_check.h>
 #include <ricci/metric/geometry.h>
 
 #include <gtest/gtest.h>

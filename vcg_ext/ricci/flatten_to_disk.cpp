@@ -7,12 +7,10 @@
 #include "base/tolerances.h"
 #include "cut/cut_graph.h"
 #include "flatten_steps.h"
-#include "hyperbolic/closing_error.h"
 #include "hyperbolic/group_of_cut.h"
 #include "hyperbolic/hyperbolic_target.h"
 #include "layout/hyperbolic_layout.h"
 #include "measure/map_check.h"
-#include "measure/metric_check.h"
 #include "mesh/flow_domain.h"
 
 #include <algorithm>

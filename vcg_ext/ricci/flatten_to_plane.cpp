@@ -14,7 +14,6 @@
 #include "measure/distortion.h"
 #include "measure/invariants.h"
 #include "measure/map_check.h"
-#include "measure/metric_check.h"
 #include "mesh/flow_domain.h"
 #include "optimize/finish.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "input_indices.h"
-
 #include "base/graphs.h"
 #include "measure/distortion.h"
+#include "whole_map.h"
 
 #include <array>
 #include <cstddef>

@@ -46,7 +46,7 @@ enum class Method {
 /// What the boundary loops other than the longest are. The order is that of the filter's menu.
 enum class Holes {
 	Boundaries, ///< boundary like the longest loop: free or prescribed, with seams that join them
-	Capped,     ///< closed by caps that take part in the flow and are not written, see capHoles()
+	Capped,     ///< closed by caps that take part in the flow and are not written, see flowDomain()
 	ShortCapped ///< capped where they are short, see flowDomain(); the others are boundaries
 };
 

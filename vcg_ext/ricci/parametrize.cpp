@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parametrize.h"
 
+#include "base/numbers.h"
 #include "base/task.h"
 #include "charts/finish_in_floats.h"
 #include "charts/pack.h"
 #include "flatten.h"
-#include "hyperbolic/closing_error.h"
 #include "hyperbolic/finish_disks.h"
-#include "input_indices.h"
+#include "hyperbolic/group_of_cut.h"
 #include "measure/distortion.h"
 #include "measure/map_check.h"
 #include "whole_map.h"
@@ -133,9 +133,8 @@ void noteLeftOut(
 		components.begin(), components.end(), [](const Component& a, const Component& b) {
 			return a.face.size() < b.face.size();
 		});
-	const std::size_t count = components.size();
 	note(
-		std::to_string(count) + (count == 1 ? " component has" : " components have") +
+		counted(components.size(), "component has", "components have") +
 			" no hyperbolic metric with this target, and lie in a square beside the disk: the "
 			"largest, with face " +
 			std::to_string(opened.face[positionOf(largest.face.front())]) + ", has " +
@@ -181,7 +180,7 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 {
 	const auto noteCount = [&](int count, const std::string& why) {
 		if (count > 0)
-			note(std::to_string(count) + (count == 1 ? " face stays" : " faces stay") + why, map);
+			note(counted(positionOf(count), "face stays", "faces stay") + why, map);
 	};
 	const std::string tooSmall =
 		" flipped in the stored coordinates: smaller than floats can represent.";
@@ -265,7 +264,7 @@ Parametrization complete(const SurfaceMesh& mesh, WholeMap whole)
 	const std::size_t unseen = unseenTriangles(map.mesh).size();
 	if (report.stretch && unseen > 0)
 		note(
-			std::to_string(unseen) + (unseen == 1 ? " face is" : " faces are") +
+			counted(unseen, "face is", "faces are") +
 				" lower than a texel of the largest texture and excluded from the objective.",
 			map);
 	if (report.stretch)
@@ -394,8 +393,10 @@ Parametrization parametrizeHyperbolic(
 	WholeMap whole = chartsInDisk(mesh, input, options, leftOut);
 	Parametrization& map = whole.map;
 	advance(kMapped, "Finishing the coordinates");
-	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
-	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
+	const RestShapes shapes = options.output == OutputTriangulation::CommonRefinement
+								  ? RestShapes::OfDrawing
+								  : RestShapes::OfSurface;
+	if (isFinished(options) && finishDisks(shapes, options.freeBoundary, map))
 		measureInDisk(whole);
 	map.report.relationError =
 		std::max(*map.report.relationError, closingError(map.mesh, map.targetCurvature));

@@ -275,13 +275,13 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 	map.qcAreaMean = sum / areaSum;
 	if (map.flippedFaces > 0)
 		logLine(
-			std::to_string(map.flippedFaces) +
-			(map.flippedFaces == 1 ? " face of the sphere is" : " faces of the sphere are") +
+			counted(
+				positionOf(map.flippedFaces), "face of the sphere is", "faces of the sphere are") +
 			" flipped: parts of the surface become too small there for straight faces or for "
 			"doubles.");
-	const AreaDistortion area = areaDistortion(before, after);
-	map.areaDistortionMean = area.mean;
-	map.areaDistortionSpread = area.spread;
+	const DistortionReport areas = areaDistortion(before, after);
+	map.areaDistortionMean = areas.areaDistortionMean;
+	map.areaDistortionSpread = areas.areaDistortionSpread;
 }
 
 /// Takes over the numbers of the opened mesh, and draws the faces that it leaves out.

@@ -8,11 +8,6 @@ namespace ricci {
 namespace {
 
 /// "1 face", "12 faces".
-std::string some(std::size_t n, const std::string& one, const std::string& many)
-{
-	return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
 std::string number(double x)
 {
 	return numberText(x, 9);
@@ -29,32 +24,33 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 	case InvalidMesh::Empty:
 		return "The mesh is empty";
 	case InvalidMesh::NoFaces:
-		return "The mesh has " + some(n, "vertex", "vertices") + " but no faces";
+		return "The mesh has " + counted(n, "vertex", "vertices") + " but no faces";
 	case InvalidMesh::ArrayLength:
 		return "An array has the wrong length, " + std::to_string(n);
 	case InvalidMesh::NoTriangle:
-		return some(n, "face has", "faces have") + " lengths that are those of no triangle";
+		return counted(n, "face has", "faces have") + " lengths that are those of no triangle";
 	case InvalidMesh::UnequalSides:
-		return some(n, "edge has", "edges have") + " two lengths, one in each of its faces";
+		return counted(n, "edge has", "edges have") + " two lengths, one in each of its faces";
 	case InvalidMesh::ScalesApart:
 		return "The coordinates differ by more than doubles hold: vertex " +
 			   std::to_string(vertices[0]) + " is so far away that other faces have no area";
 	case InvalidMesh::DamagedFaces:
-		return some(n, "face uses", "faces use") + " vertices that are deleted or not in the mesh";
+		return counted(n, "face uses", "faces use") +
+			   " vertices that are deleted or not in the mesh";
 	case InvalidMesh::NotFinite:
-		return some(n, "vertex has", "vertices have") +
+		return counted(n, "vertex has", "vertices have") +
 			   " coordinates that are not finite numbers (NaN or infinite)";
 	case InvalidMesh::OutOfRange:
-		return some(n, "vertex has", "vertices have") + " coordinates beyond 1e50";
+		return counted(n, "vertex has", "vertices have") + " coordinates beyond 1e50";
 	case InvalidMesh::TooSmall:
-		return some(n, "component is", "components are") + " smaller than 1e-50";
+		return counted(n, "component is", "components are") + " smaller than 1e-50";
 	case InvalidMesh::NoArea:
-		return "The mesh has " + some(n, "face", "faces") +
+		return "The mesh has " + counted(n, "face", "faces") +
 			   " but no area (each component lies on one line, or in one point)";
 	case InvalidMesh::EdgesWithoutLength:
-		return some(n, "edge has", "edges have") + " no length";
+		return counted(n, "edge has", "edges have") + " no length";
 	case InvalidMesh::FacesWithoutArea:
-		return some(n, "face has", "faces have") + " no area";
+		return counted(n, "face has", "faces have") + " no area";
 	case InvalidMesh::IncoherentEdge:
 		return "The edge between vertices " + std::to_string(vertices[0]) + " and " +
 			   std::to_string(vertices[1]) + " is not shared by two coherent triangles";
@@ -136,8 +132,7 @@ std::string words(const InvalidOption& e)
 		return "The map to the sphere needs a closed surface of genus 0, but the surface is " +
 			   e.surface.name();
 	case InvalidOption::NoMap:
-		return "The map to be kept has no coordinates for " + std::to_string(e.count) +
-			   (e.count == 1 ? " face" : " faces");
+		return "The map to be kept has no coordinates for " + counted(e.count, "face", "faces");
 	case InvalidOption::CoverTooLarge:
 		return number(e.value) + " rings of the universal cover would need more than " +
 			   std::to_string(e.count) + " faces";
@@ -149,7 +144,7 @@ std::string words(const InadmissibleCurvature& e)
 {
 	switch (e.problem) {
 	case InadmissibleCurvature::NotFinite:
-		return some(e.count, "vertex has", "vertices have") +
+		return counted(e.count, "vertex has", "vertices have") +
 			   " a target curvature that is not a finite number";
 	case InadmissibleCurvature::Flat:
 		return "A flat metric needs total curvature 2 pi chi = 0, but the surface is " +
@@ -197,13 +192,13 @@ std::string words(const NotConverged& e)
 			   " (wanted: " + numberText(e.epsilon, 3) +
 			   ", rounding floor: " + numberText(e.floor, 3) + ")";
 	case NotConverged::BrokenTriangles:
-		return some(e.count, "triangle breaks", "triangles break") +
+		return counted(e.count, "triangle breaks", "triangles break") +
 			   " the triangle inequality at the end of the flow";
 	case NotConverged::LostInRounding:
 		if (e.count == 0)
 			return "The flow is lost in rounding: it makes parts of the surface 1e" +
 				   number(e.value) + " times as large as others";
-		return some(e.count, "triangle is", "triangles are") +
+		return counted(e.count, "triangle is", "triangles are") +
 			   " lost in rounding: the flow makes parts of the surface 1e" + number(e.value) +
 			   " times as large as others";
 	case NotConverged::FlipsUsedUp:
@@ -212,7 +207,7 @@ std::string words(const NotConverged& e)
 		return "The boundary did not settle on a circle: its points still move by " +
 			   numberText(e.value, 3) + " radians";
 	case NotConverged::FlatTriangles:
-		return some(e.count, "triangle is", "triangles are") +
+		return counted(e.count, "triangle is", "triangles are") +
 			   " flat at the end of the flow: the target curvature is the limit of what these "
 			   "triangles can reach";
 	case NotConverged::SplitsUsedUp:
@@ -266,7 +261,7 @@ InvalidMesh::InvalidMesh(Problem p, std::size_t n, std::array<int, 2> v) :
 
 InvalidMesh::InvalidMesh(const char* name, std::size_t length, std::size_t needed) :
 		Error(
-			"The array " + std::string(name) + " has " + some(length, "entry", "entries") +
+			"The array " + std::string(name) + " has " + counted(length, "entry", "entries") +
 			", but needs " + std::to_string(needed) + ", or none"),
 		problem(ArrayLength), count(length), vertices{-1, -1}, array(name), wanted(needed)
 {

@@ -49,35 +49,24 @@ constexpr std::size_t positionOf(const Index<Self>& index)
 	return static_cast<std::size_t>(index.number());
 }
 
-/// The elements with numbers first .. last - 1, for range-based loops.
+/// The elements with numbers first .. last - 1, for range-based loops. What is left of them is the iterator, too.
 template<class I>
 class IndexRange
 {
 public:
-	class Iterator
-	{
-	public:
-		constexpr explicit Iterator(int number) : m_number(number) {}
-		constexpr I operator*() const { return I(m_number); }
-		constexpr Iterator& operator++()
-		{
-			++m_number;
-			return *this;
-		}
-		constexpr bool operator!=(const Iterator& other) const
-		{
-			return m_number != other.m_number;
-		}
-
-	private:
-		int m_number;
-	};
-
 	constexpr IndexRange(int first, int last) : m_first(first), m_last(last) {}
 	constexpr explicit IndexRange(int count) : m_first(0), m_last(count) {}
-	constexpr Iterator begin() const { return Iterator(m_first); }
-	constexpr Iterator end() const { return Iterator(m_last); }
+	constexpr IndexRange begin() const { return *this; }
+	constexpr IndexRange end() const { return {m_last, m_last}; }
 	constexpr int size() const { return m_last - m_first; }
+
+	constexpr I operator*() const { return I(m_first); }
+	constexpr IndexRange& operator++()
+	{
+		++m_first;
+		return *this;
+	}
+	constexpr bool operator!=(const IndexRange& other) const { return m_first != other.m_first; }
 
 private:
 	int m_first, m_last;

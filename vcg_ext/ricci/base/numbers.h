@@ -27,6 +27,12 @@ numberText(double x, int digits, std::chars_format format = std::chars_format::g
 	return std::string(text, end.ptr);
 }
 
+/// "1 face was", "12 faces were".
+inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
+{
+	return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 /// The default floating-point environment while it lives, and the caller's own afterwards. The
 /// algorithm goes through infinities on purpose (a trial step of the line search out of range), so
 /// a host that traps floating-point exceptions, or rounds otherwise than to nearest, must neither

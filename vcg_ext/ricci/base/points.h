@@ -196,6 +196,15 @@ struct Box2
 	double extent() const { return std::max(width(), height()); }
 };
 
+template<class Points>
+Box2 boxAround(const Points& points)
+{
+	Box2 box;
+	for (const Point2& p : points)
+		box.add(p);
+	return box;
+}
+
 /// Takes p to turn p + shift: a rotation and a translation where the absolute value of turn is 1.
 struct Motion
 {

@@ -37,19 +37,16 @@ constexpr double kLongBorder = 0.125;
 constexpr std::size_t kMaxCorners = 8;
 
 /// Whether a point lies deeper than so much to the left of a line through two others.
-struct DeeperThan
+auto deeperThan(double touching)
 {
-	double touching;
-
-	bool operator()(const Point2& p, const Point2& q, const Point2& r) const
-	{
+	return [=](const Point2& p, const Point2& q, const Point2& r) {
 		const double area = doubledArea(p, q, r);
 		const double x = std::abs(q[0] - p[0]), y = std::abs(q[1] - p[1]);
 		// distance(p, q) lies between max(x, y) and x + y.
 		return area > touching * std::max(x, y) &&
 			   (area > touching * (x + y) || area > touching * distance(p, q));
-	}
-};
+	};
+}
 
 /// Whether a side of \p a has \p b on its outer side, or no deeper inside than isDeeper(), or there is
 /// no side. Both are corners of counter-clockwise convex polygons, b of a point, too.
@@ -64,22 +61,13 @@ bool separates(const PolygonA& a, const PolygonB& b, const IsDeeper& isDeeper)
 	return a.empty();
 }
 
-template<class Points>
-Box2 boxAround(const Points& points)
-{
-	Box2 box;
-	for (const Point2& p : points)
-		box.add(p);
-	return box;
-}
-
 /// Whether inner points of a counter-clockwise triangle lie on a segment, exactly.
 bool crosses(const std::array<Point2, 2>& segment, const Triangle2& triangle)
 {
 	const auto isLeft = [](const Point2& p, const Point2& q, const Point2& r) {
 		return orientation(p, q, r) > 0;
 	};
-	return boxAround(segment).meets(boxOf(triangle)) && !separates(segment, triangle, isLeft) &&
+	return boxAround(segment).meets(boxAround(triangle)) && !separates(segment, triangle, isLeft) &&
 		   !separates(triangle, segment, isLeft);
 }
 
@@ -114,23 +102,18 @@ bool commonPoint(const Triangle2& a, const Triangle2& b, Point2& point)
 
 } // namespace
 
-Box2 boxOf(const Triangle2& triangle)
-{
-	return boxAround(triangle);
-}
-
 BoxTree boxTreeOf(const Array<Triangle2>& triangles)
 {
 	std::vector<Box2> boxes;
 	boxes.reserve(triangles.values().size());
 	for (const Triangle2& triangle : triangles)
-		boxes.push_back(boxOf(triangle));
+		boxes.push_back(boxAround(triangle));
 	return BoxTree(boxes);
 }
 
 bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 {
-	const DeeperThan isDeeper{touching};
+	const auto isDeeper = deeperThan(touching);
 	return !separates(a, b, isDeeper) && !separates(b, a, isDeeper);
 }
 
@@ -155,7 +138,7 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 		const Triangle2& p = m_plane[i];
 		m_isProper[i] = orientation(p) > 0;
 		area += 0.5 * doubledArea(p);
-		box.add(boxOf(p));
+		box.add(boxAround(p));
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
 	m_isComplete = area <= kManySheets * box.width() * box.height();
@@ -265,7 +248,7 @@ int OverlapSearch::partner(int i) const
 		return true;
 	};
 	if (m_isProper[i])
-		m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
+		m_tree.meetsAny(boxAround(m_plane[i]), overlapsWith, [&](int node) {
 			step();
 			return isApart(m_plane[i], node, nothing());
 		});
@@ -283,7 +266,7 @@ void OverlapSearch::step() const
 template<class Polygon>
 bool OverlapSearch::isApart(const Polygon& polygon, int node, double depth) const
 {
-	const DeeperThan isDeeper{depth};
+	const auto isDeeper = deeperThan(depth);
 	return !m_hulls.empty() && (separates(polygon, m_hulls[node], isDeeper) ||
 								separates(m_hulls[node], polygon, isDeeper));
 }
@@ -352,7 +335,7 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 	m_tree.boxesAround(p, add, [&](int node) {
 		step();
 		return !m_hulls.empty() &&
-			   separates(m_hulls[node], std::array<Point2, 1>{p}, DeeperThan{-nothing()});
+			   separates(m_hulls[node], std::array<Point2, 1>{p}, deeperThan(-nothing()));
 	});
 	return sum;
 }

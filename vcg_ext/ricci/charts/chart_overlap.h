@@ -16,9 +16,6 @@ namespace ricci {
 /// Two triangles of a chart, the lower number first.
 using TrianglePair = std::array<int, 2>;
 
-/// Round the corners.
-Box2 boxOf(const Triangle2& triangle);
-
 /// Boxes of triangles, in their order.
 BoxTree boxTreeOf(const Array<Triangle2>& triangles);
 

@@ -63,64 +63,48 @@ Box2 boxOfCharts(const Parametrization& map)
 	return box;
 }
 
-/// Counts the triangles of a patch that cover a part of the plane together with another one.
-class OverlapCount
+/// How many triangles of a patch cover a part of the plane together with another one.
+/// \param limits which no patch may leave, if there are any
+CostOfPatch overlapCount(const FlatMesh& map, double touching, const std::optional<Box2>& limits)
 {
-public:
-	/// \param limits which no patch may leave, if there are any
-	OverlapCount(const FlatMesh& mesh, double touching, const std::optional<Box2>& limits) :
-			m_touching(touching), m_limits(limits), m_inside(insidePoints(mesh).inside)
-	{
-	}
-
-	double operator()(const FlatMesh& flat, const Patch& patch) const
-	{
+	return [=, inside = insidePoints(map).inside](const FlatMesh& flat, const Patch& patch) {
 		bool movesBorder = false;
 		for (std::size_t i = 0; i < patch.points.size(); ++i)
 			movesBorder = movesBorder || (patch.variable[static_cast<int>(i)] >= 0 &&
-										  m_inside[patch.points[i]] == 0);
+										  inside[patch.points[i]] == 0);
 		if (!movesBorder) // the triangles round the patch stay where they are
 			return 0.0;
 		Box2 box;
 		for (const int f : patch.triangles)
-			box.add(boxOf(flat.at(f)));
-		if (m_limits && !isIn(box, *m_limits))
+			box.add(boxAround(flat.at(f)));
+		if (limits && !isIn(box, *limits))
 			return kInfinity;
 		Array<Triangle2> near;
 		std::vector<char> isOwn;
 		for (const int f : flat.points.indices())
-			if (box.meets(boxOf(flat.at(f)))) {
+			if (box.meets(boxAround(flat.at(f)))) {
 				near.push_back(flat.at(f));
 				isOwn.push_back(
 					std::binary_search(patch.triangles.begin(), patch.triangles.end(), f));
 			}
-		const Array<char> overlaps = OverlapSearch(std::move(near), m_touching).overlapping();
+		const Array<char> overlaps = OverlapSearch(std::move(near), touching).overlapping();
 		double count = 0.0;
 		for (const int i : overlaps.indices())
 			count += overlaps[i] != 0 && isOwn[positionOf(i)] != 0;
 		return count;
-	}
-
-private:
-	double m_touching;
-	std::optional<Box2> m_limits;
-	Array<char> m_inside; // [point]
-};
+	};
+}
 
 /// Makes triangles charts of their own, which are high enough.
 void setApart(const std::vector<int>& triangles, const Validity& validity, Parametrization& map)
 {
 	cutOff(triangles, map);
 	for (const int f : triangles) {
-		Patch patch;
-		patch.triangles = {f};
-		patch.points = {map.mesh.points[f][0], map.mesh.points[f][1], map.mesh.points[f][2]};
-		patch.corners.push_back({0, 1, 2});
-		const RestShape shape =
-			restShapes(map.mesh, patch, RestShapes::OfDrawing, validity).front();
-		const Point2 first = map.mesh.place[patch.points[0]];
-		map.mesh.place[patch.points[1]] = first + Point2{shape.base, 0.0};
-		map.mesh.place[patch.points[2]] = first + asPoint(shape.apex);
+		const RestShape shape = restShape(map.mesh, f, RestShapes::OfDrawing, validity);
+		const Triangle& points = map.mesh.points[f];
+		const Point2 first = map.mesh.place[points[0]];
+		map.mesh.place[points[1]] = first + Point2{shape.base, 0.0};
+		map.mesh.place[points[2]] = first + asPoint(shape.apex);
 	}
 }
 
@@ -130,7 +114,7 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 {
 	const Box2 limits = boxOfCharts(map);
 	const Wanted wanted(map.mesh, rules.keepsMesh);
-	const OverlapCount overlaps(
+	const CostOfPatch overlaps = overlapCount(
 		map.mesh,
 		wanted.validity.height / kMinFloatSteps,
 		rules.mayGrow ? std::nullopt : std::optional<Box2>(limits));

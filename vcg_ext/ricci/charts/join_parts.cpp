@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "join_parts.h"
+#include "chart_division.h"
 
 #include "../base/task.h"
 #include "dual_graph.h"
+#include "movable_parts.h"
 
 #include <algorithm>
 #include <cstddef>

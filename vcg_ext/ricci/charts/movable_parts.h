@@ -3,11 +3,16 @@
 #define RICCI_MOVABLE_PARTS_H
 
 #include "../base/box_tree.h"
+#include "../base/points.h"
+#include "../base/tolerances.h"
 #include "../layout/flat_mesh.h"
+#include "../metric/area.h"
 #include "chart_overlap.h"
 
 #include <array>
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -31,17 +36,55 @@ public:
 	MovableParts(
 		const FlatMesh& chart,
 		const std::vector<std::vector<int>>& parts,
-		const BoxTree* all = nullptr);
+		const BoxTree* all = nullptr) :
+			m_chart(chart),
+			m_all(all), m_plane(chart.corners()), m_isProper(chart.size()),
+			m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
+			m_next(chart.size(), -1)
+	{
+		Box2 whole;
+		for (const int f : m_plane.indices())
+			m_isProper[f] = orientation(m_plane[f]) > 0;
+		for (const std::vector<int>& triangles : parts) {
+			const int part = addPart();
+			m_groupsOf[part].push_back(m_groups.size());
+			Group group{m_all ? -1 : m_origins.size(), {}, {}, {}};
+			std::vector<Box2> boxes;
+			boxes.reserve(triangles.size());
+			for (const int f : triangles) {
+				append(f, part);
+				m_group[f] = m_groups.size();
+				m_area[part] += areaOf(f);
+				boxes.push_back(boxAround(m_plane[f]));
+				group.box.add(boxes.back());
+				whole.add(boxes.back());
+			}
+			m_groups.push_back(group);
+			if (!m_all)
+				m_origins.push_back({triangles, BoxTree(boxes)});
+		}
+		m_onePlace = kTiny * whole.extent();
+		m_touching = kTiny * whole.extent();
+		commit();
+	}
 
 	int count() const { return m_area.size(); }
 	bool isEmpty(int part) const { return m_first[part] < 0; }
-	std::vector<int> trianglesOf(int part) const;
+	std::vector<int> trianglesOf(int part) const
+	{
+		std::vector<int> triangles;
+		for (int f = m_first[part]; f >= 0; f = m_next[f])
+			triangles.push_back(f);
+		return triangles;
+	}
+
 	int partOf(int triangle) const { return m_part[triangle]; }
 	/// Number of triangles.
 	int size(int part) const { return m_size[part]; }
 	/// On the surface.
 	double area(int part) const { return m_area[part]; }
-	double areaOf(int triangle) const;
+	double areaOf(int triangle) const { return euclideanArea(m_chart.lengths[triangle]); }
+
 	/// Where a triangle is.
 	const Triangle2& at(int triangle) const { return m_plane[triangle]; }
 
@@ -55,13 +98,41 @@ public:
 	}
 
 	/// The motion of a side to the one across.
-	Motion across(Corner side) const;
+	Motion across(Corner side) const
+	{
+		const auto own = endsOf(side), other = endsOf(m_chart.across[side]);
+		const auto vector = [](const Point2& p, const Point2& q) {
+			return asComplex(q) - asComplex(p);
+		};
+		const auto middle = [](const std::array<Point2, 2>& p) {
+			return 0.5 * (asComplex(p[1]) + asComplex(p[0]));
+		};
+		const std::complex<double> turn =
+			vector(other[1], other[0]) * std::conj(vector(own[0], own[1]));
+		Motion motion;
+		if (const double size = std::abs(turn); size > 0.0)
+			motion.turn = turn / size;
+		motion.shift = middle(other) - motion.turn * middle(own);
+		return motion;
+	}
 
 	/// Whether \p motion brings a side to the place of the one across.
-	bool fits(const Motion& motion, Corner side) const;
+	bool fits(const Motion& motion, Corner side) const
+	{
+		const auto own = endsOf(side), other = endsOf(m_chart.across[side]);
+		return distance(motion(own[0]), other[1]) <= m_onePlace &&
+			   distance(motion(own[1]), other[0]) <= m_onePlace;
+	}
 
 	/// Whether a side and the one across are at one place in one part.
-	bool isJoined(Corner side) const;
+	bool isJoined(Corner side) const
+	{
+		const Corner across = m_chart.across[side];
+		if (m_part[side.face()] != m_part[across.face()])
+			return false;
+		const auto own = endsOf(side), other = endsOf(across);
+		return (own[0] == other[1] && own[1] == other[0]) || fits({}, side);
+	}
 
 	/// Groups of triangles of one part, see groupsNear().
 	struct Groups
@@ -71,7 +142,24 @@ public:
 	};
 
 	/// The groups of the other part that come near \p part at its new place: others it does not cover.
-	Groups groupsNear(int part, const Place& place) const;
+	Groups groupsNear(int part, const Place& place) const
+	{
+		Box2 moved;
+		for (const int group : m_groupsOf[part]) {
+			const Box2& box = m_groups[group].box;
+			for (const double x : {box.min[0], box.max[0]})
+				for (const double y : {box.min[1], box.max[1]})
+					moved.add(place.motion(Point2{x, y}));
+		}
+		std::vector<int> near;
+		std::vector<Box2> boxes;
+		for (const int group : m_groupsOf[place.other])
+			if (const Box2& box = m_groups[group].box; box.meets(moved)) {
+				near.push_back(group);
+				boxes.push_back(box);
+			}
+		return {std::move(near), BoxTree(boxes)};
+	}
 
 	/// Calls isEnough(g) for the triangles g of the other part that those of the part cover at its new place,
 	/// flipped ones left out, once for each of these, until it is.
@@ -100,16 +188,73 @@ public:
 	}
 
 	/// Adds an empty part. \return its number
-	int addPart();
+	int addPart()
+	{
+		m_first.push_back(-1);
+		m_last.push_back(-1);
+		m_groupsOf.push_back({});
+		m_area.push_back(0.0);
+		m_size.push_back(0);
+		return count() - 1;
+	}
 
 	/// Moves triangles of one part to another.
-	void move(const std::vector<int>& triangles, const Place& place);
+	void move(const std::vector<int>& triangles, const Place& place)
+	{
+		const int from = m_part[triangles.front()], to = place.other;
+		Move done{from, to, m_area[from], m_area[to], {}, m_groupsOf[to].size()};
+		std::map<int, int> groups; // from the old to the new
+		for (const int f : triangles) {
+			const auto [group, isNew] = groups.try_emplace(m_group[f], m_groups.size());
+			if (isNew) {
+				const Group& old = m_groups[m_group[f]];
+				const Motion motion = place.motion.after(old.motion);
+				m_groups.push_back({old.origin, motion, motion.inverse(), Box2()});
+				m_groupsOf[to].push_back(group->second);
+			}
+			m_area[from] -= areaOf(f);
+			m_area[to] += areaOf(f);
+			Triangle2& plane = m_plane[f];
+			done.changes.push_back({f, m_group[f], remove(f), plane});
+			append(f, to);
+			m_group[f] = group->second;
+			plane = place.motion(plane);
+			for (const Point2& p : plane)
+				m_groups[m_group[f]].box.add(p);
+		}
+		m_moves.push_back(std::move(done));
+	}
 
 	/// Forgets how to undo what was done.
-	void commit();
+	void commit()
+	{
+		m_moves.clear();
+		m_committedParts = count();
+		m_committedGroups = m_groups.size();
+	}
 
 	/// Undoes all since commit().
-	void undo();
+	void undo()
+	{
+		for (; !m_moves.empty(); m_moves.pop_back()) {
+			const Move& move = m_moves.back();
+			for (auto change = move.changes.rbegin(); change != move.changes.rend(); ++change) {
+				remove(change->triangle);
+				insertBehind(change->before, change->triangle, move.from);
+				m_group[change->triangle] = change->group;
+				m_plane[change->triangle] = change->plane;
+			}
+			m_groupsOf[move.to].resize(move.groups);
+			m_area[move.from] = move.fromArea;
+			m_area[move.to] = move.toArea;
+		}
+		m_groups.resize(m_committedGroups);
+		m_groupsOf.resize(m_committedParts);
+		m_area.resize(m_committedParts);
+		m_size.resize(m_committedParts);
+		m_first.resize(m_committedParts);
+		m_last.resize(m_committedParts);
+	}
 
 private:
 	static constexpr std::size_t kStride = 31;
@@ -141,20 +286,38 @@ private:
 		std::vector<Change> changes;
 		std::size_t groups; ///< of the part to
 	};
+	void append(int triangle, int part) { insertBehind(m_last[part], triangle, part); }
 
-	void append(int triangle, int part);
-	int remove(int triangle);
-	void insertBehind(int before, int triangle, int part);
+	/// \return the triangle before it in its part, or -1
+	int remove(int triangle)
+	{
+		const int before = m_before[triangle], next = m_next[triangle], part = m_part[triangle];
+		--m_size[part];
+		(before >= 0 ? m_next[before] : m_first[part]) = next;
+		(next >= 0 ? m_before[next] : m_last[part]) = before;
+		return before;
+	}
+
+	void insertBehind(int before, int triangle, int part)
+	{
+		const int next = before >= 0 ? m_next[before] : m_first[part];
+		m_part[triangle] = part;
+		++m_size[part];
+		m_before[triangle] = before;
+		m_next[triangle] = next;
+		(before >= 0 ? m_next[before] : m_first[part]) = triangle;
+		(next >= 0 ? m_before[next] : m_last[part]) = triangle;
+	}
 
 	template<class IsFound>
 	bool coveredBy(const Triangle2& p, const Groups& groups, const IsFound& isFound) const
 	{
-		return groups.tree.meetsAny(boxOf(p), [&](int k) {
+		return groups.tree.meetsAny(boxAround(p), [&](int k) {
 			const int group = groups.numbers[positionOf(k)];
 			const int number = m_groups[group].origin;
 			const Origin* origin = number >= 0 ? &m_origins[number] : nullptr;
 			const BoxTree& tree = origin ? origin->tree : *m_all;
-			return tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
+			return tree.meetsAny(boxAround(m_groups[group].back(p)), [&](int i) {
 				const int g = origin ? origin->triangles[positionOf(i)] : i;
 				return m_group[g] == group && m_isProper[g] && overlap(p, m_plane[g], m_touching) &&
 					   isFound(g);

@@ -9,7 +9,6 @@
 #include "chart_division.h"
 #include "chart_overlap.h"
 #include "dual_graph.h"
-#include "join_parts.h"
 
 #include <algorithm>
 #include <cmath>

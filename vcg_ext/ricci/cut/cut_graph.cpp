@@ -8,7 +8,6 @@
 #include "../mesh/triangulation.h"
 #include "../metric/area.h"
 #include "../numerics/sparse_cholesky.h"
-#include "shorten_cut.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

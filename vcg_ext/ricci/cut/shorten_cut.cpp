@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shorten_cut.h"
+#include "cut_graph.h"
 
 #include "../base/graphs.h"
 #include "../base/task.h"

@@ -9,7 +9,6 @@
 #include "../charts/chart_overlap.h"
 #include "../charts/separate_charts.h"
 #include "../layout/hyperbolic_layout.h"
-#include "../optimize/cover_repair.h"
 #include "../optimize/repair.h"
 
 #include <algorithm>
@@ -163,6 +162,11 @@ bool divideDisks(Parametrization& map)
 	return true;
 }
 
+namespace {
+
+/// Divides the charts in the Poincaré disk that overlap themselves as straight triangles, as separateCharts() does
+/// in the plane. The largest part keeps its place, each other one has a disk of its own with its middle at 0.
+/// \return whether charts were divided
 bool separateDisks(Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
@@ -204,13 +208,10 @@ bool separateDisks(Parametrization& map)
 	return true;
 }
 
-namespace {
-
 /// Mends triangles of charts in the unit disk, and divides those that overlap then.
 /// \return points that were moved
-int repairDisks(const DiskFinish& finish, Parametrization& map)
+int repairDisks(RestShapes shapes, bool freeBoundary, Parametrization& map)
 {
-	const RestShapes shapes = finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface;
 	const Validity validity = diskValidity(map.charts.size());
 	Repair result;
 	const auto inside = [&](RestShapes rest) {
@@ -224,7 +225,7 @@ int repairDisks(const DiskFinish& finish, Parametrization& map)
 		result.add(repairInCover(map.mesh, {shapes, validity}, boundaryMoves, limit));
 	};
 	inside(shapes);
-	inCover(finish.freeBoundary);
+	inCover(freeBoundary);
 	inCover(true);
 	inside(RestShapes::OfSurfaceEvenly);
 	for (int i = 0; i < kMaxSeparations && separateDisks(map); ++i)
@@ -247,7 +248,7 @@ int countFaults(const Parametrization& map)
 
 } // namespace
 
-bool finishDisks(const DiskFinish& finish, Parametrization& map)
+bool finishDisks(RestShapes shapes, bool freeBoundary, Parametrization& map)
 {
 	int faults = countFaults(map);
 	if (faults == 0)
@@ -258,7 +259,7 @@ bool finishDisks(const DiskFinish& finish, Parametrization& map)
 		Parametrization next = asFound;
 		if (faults == 0 || (divides && !divideDisks(next)))
 			break;
-		const int moved = repairDisks(finish, next);
+		const int moved = repairDisks(shapes, freeBoundary, next);
 		const int left = countFaults(next);
 		if (left >= faults)
 			continue;

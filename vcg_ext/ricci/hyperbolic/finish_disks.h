@@ -22,28 +22,18 @@ Validity diskValidity(std::size_t disks);
 /// \return whether charts were divided
 bool divideDisks(Parametrization& map);
 
-/// Divides the charts in the Poincaré disk that overlap themselves as straight triangles, as separateCharts() does
-/// in the plane. The largest part keeps its place, each other one has a disk of its own with its middle at 0.
-/// \return whether charts were divided
-bool separateDisks(Parametrization& map);
-
 /// Where a mesh has so many disks, none is divided further: their squares get too small.
 constexpr int kMaxDisks = 256;
-
-/// What finishDisks() has to know.
-struct DiskFinish
-{
-	bool freeBoundary = false;
-	bool isRefined = false; ///< the triangles keep their shapes
-};
 
 /// What repairInFloats() does in the plane, for charts in the Poincaré disk before placeDisks(): mends the triangles that are flipped, or that
 /// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides
 /// (repairInCover()). Disks that overlap themselves as straight triangles are divided (separateDisks()); where
 /// triangles are left all the same, they are divided first (divideDisks()), if that leaves fewer. A map that
 /// would not have fewer faults stays as it was.
+/// \param shapes that triangles keep; OfDrawing for those of a refinement
+/// \param freeBoundary whether points of the boundary may move wherever others do not do
 /// \return whether points were moved or disks divided
-bool finishDisks(const DiskFinish& finish, Parametrization& map);
+bool finishDisks(RestShapes shapes, bool freeBoundary, Parametrization& map);
 
 } // namespace ricci
 

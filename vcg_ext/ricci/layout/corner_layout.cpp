@@ -200,7 +200,10 @@ public:
 	SurfaceLayout inDisk() const
 	{
 		const HyperbolicLayout disk = layOutInDisk(m_sheets);
-		return {layout([&](Halfedge h) { return asPoint(disk[h]); }), pairing(disk), {}};
+		return {
+			layout([&](Halfedge h) { return asPoint(std::complex<double>(disk[h].origin())); }),
+			pairing(disk),
+			{}};
 	}
 
 private:
@@ -228,8 +231,7 @@ private:
 			const auto offer = [&](Halfedge side, int onLeft, int onRight) {
 				const Face left = m_number[m_parts.beside(side, onLeft)];
 				const Face right = m_number[m_parts.beside(side, onRight)];
-				pairing[e].offer(
-					disk.frame[sheets.halfedge(left)], disk.frame[sheets.halfedge(right)]);
+				pairing[e].offer(disk[sheets.halfedge(left)], disk[sheets.halfedge(right)]);
 			};
 			for (const auto& [side, i] : curves[e].crossings)
 				offer(side, i + 1, i);

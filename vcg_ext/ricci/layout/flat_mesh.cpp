@@ -64,10 +64,7 @@ std::array<double, 2> FlatMesh::stretch(int triangle) const
 
 Box2 FlatMesh::box() const
 {
-	Box2 box;
-	for (const Point2& p : place)
-		box.add(p);
-	return box;
+	return boxAround(place);
 }
 
 std::vector<Box2> FlatMesh::boxes(std::size_t chartCount) const

@@ -61,12 +61,12 @@ public:
 	HyperbolicLayout from(Face root) const
 	{
 		HyperbolicLayout layout;
-		layout.frame.resize(m_t.halfedgeCount());
+		layout.resize(m_t.halfedgeCount());
 		place(layout, m_t.halfedge(root), ExtendedIsometry());
 		std::size_t placed = 0;
 		for (const Halfedge h : layoutTree(m_t, m_lengths, m_isCut, root)) {
 			checkpointNowAndThen(placed++);
-			place(layout, h, layout.frame[h.twin()] * along(h) * m_turn);
+			place(layout, h, layout[h.twin()] * along(h) * m_turn);
 		}
 		return layout;
 	}
@@ -81,7 +81,7 @@ public:
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
 			const double area = hyperbolicArea(sidesOf(m_t, m_lengths, f));
 			for (const Halfedge h : side)
-				middle.add(area, layout.frame[h]);
+				middle.add(area, layout[h]);
 		}
 		const ExtendedIsometry back = middle.toZero();
 		Face nearest(0);
@@ -90,7 +90,7 @@ public:
 			checkpointNowAndThen(positionOf(f));
 			DoubleDouble spread; // grows with the distances of the corners from 0
 			for (const Halfedge h : m_t.halfedges(f)) {
-				ExtendedIsometry& g = layout.frame[h];
+				ExtendedIsometry& g = layout[h];
 				g = (back * g).normalised();
 				spread += norm(g.b);
 			}
@@ -112,16 +112,15 @@ private:
 	{
 		using Isometry = ExtendedIsometry;
 		const Halfedge second = m_t.next(h), third = m_t.previous(h);
-		layout.frame[h] = frame.normalised();
-		layout.frame[second] =
+		layout[h] = frame.normalised();
+		layout[second] =
 			(frame * along(h) * Isometry::rotation(kExtendedPi - m_angles[second])).normalised();
 		// The apex from the nearer end of the base.
-		layout.frame[third] =
-			(length(second) < length(third)
-				 ? layout.frame[second] * along(second) *
-					   Isometry::rotation(kExtendedPi - m_angles[third])
-				 : layout.frame[h] * Isometry::rotation(m_angles[h]) * along(third) * m_turn)
-				.normalised();
+		layout[third] = (length(second) < length(third)
+							 ? layout[second] * along(second) *
+								   Isometry::rotation(kExtendedPi - m_angles[third])
+							 : layout[h] * Isometry::rotation(m_angles[h]) * along(third) * m_turn)
+							.normalised();
 	}
 
 	const Triangulation& m_t;
@@ -169,7 +168,7 @@ HyperbolicLayout layOutInDisk(
 void offerPairing(
 	const HyperbolicLayout& layout, double length, Halfedge h, Halfedge twin, SidePairing& pairing)
 {
-	pairing.offer(turned(layout.frame[h], length), layout.frame[twin]);
+	pairing.offer(turned(layout[h], length), layout[twin]);
 }
 
 int hyperbolicOrientation(std::complex<double> p, std::complex<double> q, std::complex<double> r)

@@ -13,20 +13,11 @@
 
 namespace ricci {
 
-/// A metric of curvature -1 laid out in the Poincaré disk (paper 4.3).
-struct HyperbolicLayout
-{
-	/// The frame at the halfedge's origin that looks along it, as seen from the triangle on its
-	/// left; without meaning for exterior halfedges. Two frames of one triangle always fit together;
-	/// the frames on both sides of an edge off the cut fit to rounding.
-	HalfedgeArray<ExtendedIsometry> frame;
-
-	/// The corner of the triangle of \p h at its origin: a point of the unit disk.
-	std::complex<double> operator[](Halfedge h) const
-	{
-		return std::complex<double>(frame[h].origin());
-	}
-};
+/// A metric of curvature -1 laid out in the Poincaré disk (paper 4.3): the frame at each halfedge's origin, the
+/// corner of its triangle, that looks along it, as seen from the triangle on its left; without meaning for
+/// exterior halfedges. Two frames of one triangle always fit together; those on both sides of an edge off the
+/// cut fit to rounding.
+using HyperbolicLayout = HalfedgeArray<ExtendedIsometry>;
 
 /// Lays the triangles out one after another across the edges with isCut 0, which must leave the
 /// surface connected and simply connected. Counter-clockwise triangles stay counter-clockwise.

@@ -121,7 +121,7 @@ double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Tria
 	return distortionOf(LaidOutTriangle(surface), plane);
 }
 
-AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
+DistortionReport areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
 {
 	double totalBefore = 0.0, totalAfter = 0.0;
 	const auto counts = [&](std::size_t f) { return before[f] > 0.0 && after[f] > 0.0; };
@@ -130,7 +130,7 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 			totalBefore += before[f];
 			totalAfter += after[f];
 		}
-	AreaDistortion distortion;
+	DistortionReport distortion;
 	if (!(totalBefore > 0.0))
 		return distortion;
 	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
@@ -139,13 +139,13 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 		if (!counts(f) || std::min(weight, share) < std::numeric_limits<double>::min())
 			continue;
 		const double logFactor = std::log(share) - std::log(weight);
-		distortion.factors.push_back(logFactor / std::log(2.0));
+		distortion.areaFactors.push_back(logFactor / std::log(2.0));
 		mean += weight * std::exp(std::abs(logFactor));
 		logMean += weight * logFactor;
 		logSquare += weight * logFactor * logFactor;
 	}
-	distortion.mean = mean;
-	distortion.spread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
+	distortion.areaDistortionMean = mean;
+	distortion.areaDistortionSpread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
 	return distortion;
 }
 
@@ -200,10 +200,7 @@ Distortion measured(
 			ringArea[positionOf(v)] += area;
 		}
 	}
-	AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
-	result.areaDistortionMean = areas.mean;
-	result.areaDistortionSpread = areas.spread;
-	result.areaFactors = std::move(areas.factors);
+	static_cast<DistortionReport&>(result) = areaDistortion(areaBefore, areaAfter);
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < vertexQC.size(); ++v) {

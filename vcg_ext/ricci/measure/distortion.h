@@ -30,17 +30,11 @@ std::vector<double> triangleAreas(
 	const std::vector<Triangle>& triangles,
 	const std::vector<std::array<double, 3>>& lengths);
 
-/// Change of area by a map of triangles: their areas before and after, each relative to its total.
-struct AreaDistortion
-{
-	double mean = 1.0;   ///< of max(s, 1/s) for the area factors s, weighted by the area before
-	double spread = 0.0; ///< standard deviation of ln s, weighted by the area before
-	std::vector<double> factors; ///< log2 s of the triangles
-};
-
+/// What a map of triangles does to their areas, each relative to its total. Of the report, nothing else is set.
 /// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
 /// of the totals too, and those whose shares of the totals are below the normal numbers.
-AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
+DistortionReport
+areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
 
 /// The smallest of \p values that at least a share \p share of them does not exceed (nearest rank),
 /// 0 < \p share <= 1; NaN where there are none. None of them is NaN.

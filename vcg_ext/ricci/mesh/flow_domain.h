@@ -75,21 +75,6 @@ struct FlowDomain
 /// for the flow.
 FlowDomain flowDomain(const Component& component, Holes holes);
 
-/// Exterior halfedges of the loops that are to be closed: one of each. See flowDomain().
-/// \param isHole 1 on the edges of holes; empty: which loops are holes is told by their lengths
-std::vector<Halfedge>
-loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes);
-
-/// Closes \p loops of the surface of \p domain by fans round their centres of mass.
-///
-/// Positions serve only to give the edges of the fan a length, without them the radius of a circle as long as
-/// the loop and half its longest edge; and its triangles may be thin: the
-/// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
-/// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
-/// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
-/// its centre is filled by the plane.
-void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain);
-
 } // namespace ricci
 
 #endif

@@ -184,24 +184,23 @@ void unfold(
 	strip.sides.clear();
 	const Halfedge h = curve.first;
 	double along = kPi - angle(t.next(h)); // direction of the crossed halfedge
-	Strip::Side side{{length(h), 0.0}, walk({0.0, 0.0}, length(t.previous(h)), angle(h))};
+	Point2 from{length(h), 0.0}, to = walk({0.0, 0.0}, length(t.previous(h)), angle(h));
 	for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
-		strip.sides.push_back(side);
-		const Halfedge y = curve.crossings[i].halfedge.twin(); // from side.to
+		strip.sides.push_back({from, to});
+		const Halfedge y = curve.crossings[i].halfedge.twin(); // from to
 		const double direction = along + kPi;
 		const double toApex = direction + angle(y);
 		const double fromBase = direction + kPi - angle(t.next(y));
 		const double left = length(t.previous(y)), right = length(t.next(y));
-		const Point2 apex =
-			right < left ? walk(side.from, right, fromBase) : walk(side.to, left, toApex);
+		const Point2 apex = right < left ? walk(from, right, fromBase) : walk(to, left, toApex);
 		if (i + 1 == curve.crossings.size())
 			strip.end = apex;
 		else if (curve.crossings[i + 1].halfedge == t.next(y)) {
-			side.to = apex;
+			to = apex;
 			along = fromBase;
 		}
 		else {
-			side.from = apex;
+			from = apex;
 			along = toApex - kPi;
 		}
 	}

@@ -5,6 +5,7 @@
 #include "triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace ricci {
@@ -132,12 +133,9 @@ private:
 /// at the origin of the plane.
 struct Strip
 {
-	struct Side
-	{
-		Point2 from, to; ///< ends of the crossed halfedge
-	};
-	std::vector<Side> sides; ///< of every crossing, in order
-	Point2 end{0.0, 0.0};    ///< of the curve
+	std::vector<std::array<Point2, 2>>
+		sides;            ///< of every crossing, in order: the ends of the crossed halfedge
+	Point2 end{0.0, 0.0}; ///< of the curve
 };
 
 /// Unfolds \p curve in the flat metric of these \p lengths on \p t, on which the curve was traced.

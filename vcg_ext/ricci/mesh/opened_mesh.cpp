@@ -5,9 +5,7 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "face_gluing.h"
-#include "map_jumps.h"
 #include "sides.h"
-#include "split_vertices.h"
 
 #include <algorithm>
 #include <cmath>

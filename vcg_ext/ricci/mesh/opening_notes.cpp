@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../base/numbers.h"
 #include "opened_mesh.h"
 
 #include <algorithm>
@@ -7,16 +8,6 @@
 #include <vector>
 
 namespace ricci {
-
-namespace {
-
-/// "1 face was", "12 faces were".
-std::string counted(std::size_t n, const std::string& one, const std::string& many)
-{
-	return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
-} // namespace
 
 void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std::string>& notes)
 {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "split_vertices.h"
+#include "face_gluing.h"
 
 #include "../base/graphs.h"
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
-#include "face_gluing.h"
 #include "sides.h"
 
 #include <algorithm>

@@ -104,41 +104,36 @@ public:
 	/// The next of the halfedges that leave the origin of \p h, clockwise.
 	Halfedge clockwise(Halfedge h) const { return next(h.twin()); }
 
-	/// Halfedges for a range-based loop, from \p first until it comes round, by \p step.
+	/// Halfedges for a range-based loop, from \p first until it comes round, by \p step; its own iterator.
 	template<Halfedge (Triangulation::*step)(Halfedge) const>
 	class Circulator
 	{
 	public:
-		class Iterator
+		Circulator(const Triangulation& t, Halfedge first, bool isDone) :
+				m_t(t), m_h(first), m_first(first), m_isDone(isDone)
 		{
-		public:
-			Iterator(const Triangulation& t, Halfedge h, bool done) :
-					m_t(t), m_h(h), m_first(h), m_done(done)
-			{
-			}
-			Halfedge operator*() const { return m_h; }
-			Iterator& operator++()
-			{
-				m_h = (m_t.*step)(m_h);
-				m_done = m_h == m_first;
-				return *this;
-			}
-			bool operator!=(const Iterator& other) const { return m_done != other.m_done; }
+		}
+		Circulator(const Triangulation& t, Halfedge first) : Circulator(t, first, !first.isValid())
+		{
+		}
+		Circulator begin() const { return *this; }
+		Circulator end() const { return {m_t, m_first, true}; }
 
-		private:
-			const Triangulation& m_t;
-			Halfedge m_h, m_first;
-			bool m_done;
-		};
-
-		Circulator(const Triangulation& t, Halfedge first) : m_t(t), m_first(first) {}
-		Iterator begin() const { return {m_t, m_first, !m_first.isValid()}; }
-		Iterator end() const { return {m_t, m_first, true}; }
+		Halfedge operator*() const { return m_h; }
+		Circulator& operator++()
+		{
+			m_h = (m_t.*step)(m_h);
+			m_isDone = m_h == m_first;
+			return *this;
+		}
+		bool operator!=(const Circulator& other) const { return m_isDone != other.m_isDone; }
 
 	private:
 		const Triangulation& m_t;
-		Halfedge m_first;
+		Halfedge m_h, m_first;
+		bool m_isDone;
 	};
+
 	using Around = Circulator<&Triangulation::clockwise>;
 	using Loop = Circulator<&Triangulation::next>;
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cover_repair.h"
+#include "repair.h"
 
 #include "../base/task.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../numerics/disk_isometry.h"
-#include "repair.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -85,13 +84,8 @@ private:
 			return;
 		const int maxSteps = static_cast<int>(std::clamp(
 			work / size, std::int64_t(0), std::int64_t(std::numeric_limits<int>::max())));
-		const Untangled found = untangle(
-			{patch.flat,
-			 patch.groups,
-			 patch.whole,
-			 restShapes(patch.flat, patch.whole, m_rules.shapes, m_rules.validity),
-			 m_rules.validity,
-			 maxSteps});
+		const Untangled found =
+			untangle({patch.flat, patch.groups, m_rules, patch.whole, maxSteps});
 		work -= found.steps * size;
 		if (found.points.empty())
 			return;

@@ -18,41 +18,30 @@ namespace {
 
 /// What a patch costs in the objective (MapCost) at the scale at which the whole map costs least, where the
 /// triangles of it that are not valid are cut off.
-class CostWithCuts
+CostOfPatch costWithCuts(const FlatMesh& map, const Validity& validity)
 {
-public:
-	CostWithCuts(const FlatMesh& flat, const Validity& validity) :
-			m_validity(validity), m_area(flat.area())
-	{
-		double forth = 0.0, back = 0.0;
-		for (const int f : flat.points.indices())
-			if (const auto [ahead, behind] = flat.stretch(f); behind < kInfinity) {
-				forth += ahead;
-				back += behind;
-			}
-		m_scale = std::sqrt(back / forth);
-	}
-
-	double operator()(const FlatMesh& flat, const Patch& patch) const
-	{
+	double forth = 0.0, back = 0.0;
+	for (const int f : map.points.indices())
+		if (const auto [ahead, behind] = map.stretch(f); behind < kInfinity) {
+			forth += ahead;
+			back += behind;
+		}
+	const double scale = std::sqrt(back / forth), area = map.area();
+	return [=](const FlatMesh& flat, const Patch& patch) {
 		double energy = 0.0, seams = 0.0;
 		for (const int f : patch.triangles) {
 			const auto [ahead, behind] = flat.stretch(f);
-			energy += m_scale * ahead + behind / m_scale;
-			if (m_validity.isValid(flat.at(f)))
+			energy += scale * ahead + behind / scale;
+			if (validity.isValid(flat.at(f)))
 				continue;
 			for (const Corner side : cornersOf(f))
 				if (const Corner other = flat.joined(side);
-					other.isValid() && m_validity.isValid(flat.at(other.face())))
+					other.isValid() && validity.isValid(flat.at(other.face())))
 					seams += flat.lengths[side];
 		}
-		return energy / m_area + kSeamPrice * seams / std::sqrt(m_area);
-	}
-
-private:
-	Validity m_validity;
-	double m_area, m_scale;
-};
+		return energy / area + kSeamPrice * seams / std::sqrt(area);
+	};
+}
 
 } // namespace
 
@@ -71,7 +60,7 @@ FinishCounts finishInPlane(
 	const auto repair = [&] {
 		const double height = kMinHeight * flat.box().extent();
 		const Validity validity{height, kWantedHeights * height};
-		const CostOfPatch cost = mayCut ? CostOfPatch(CostWithCuts(flat, validity)) : nullptr;
+		const CostOfPatch cost = mayCut ? costWithCuts(flat, validity) : nullptr;
 		WorkLimit limit(flat.points.size(), WorkLimit::kFew);
 		const Repair result = repairInStages(
 			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, !freeBoundary}, limit);

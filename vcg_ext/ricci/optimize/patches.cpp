@@ -252,4 +252,13 @@ restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Vali
 	return shapes;
 }
 
+RestShape restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity)
+{
+	Patch alone;
+	alone.triangles = {triangle};
+	alone.points.assign(flat.points[triangle].begin(), flat.points[triangle].end());
+	alone.corners.push_back({0, 1, 2});
+	return restShapes(flat, alone, from, validity).front();
+}
+
 } // namespace ricci

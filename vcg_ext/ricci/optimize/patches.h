@@ -123,6 +123,8 @@ enum class RestShapes {
 /// less thin. All are as high as \p validity wants.
 std::vector<RestShape>
 restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Validity& validity);
+/// The shape of one triangle by itself.
+RestShape restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity);
 
 } // namespace ricci
 

@@ -46,7 +46,11 @@ class Untangler
 public:
 	explicit Untangler(const PatchProblem& problem) :
 			m_problem(problem), m_patch(problem.patch),
-			m_energy(problem.flat, problem.groups, m_patch, problem.shapes),
+			m_energy(
+				problem.flat,
+				problem.groups,
+				m_patch,
+				restShapes(problem.flat, m_patch, problem.rules.shapes, problem.rules.validity)),
 			m_x(Eigen::VectorXd::Zero(m_energy.size()))
 	{
 	}
@@ -158,13 +162,13 @@ private:
 			m_places.push_back(
 				variable < 0
 					? m_problem.flat.place[p]
-					: m_problem.validity.stored(m_problem.groups.displaced(
+					: m_problem.rules.validity.stored(m_problem.groups.displaced(
 						  p, m_problem.flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_invalid.clear();
 		for (const int i : m_patch.corners.indices()) {
 			const Triangle& t = m_patch.corners[i];
-			if (!m_problem.validity.isValid(
+			if (!m_problem.rules.validity.isValid(
 					{m_places[positionOf(t[0])],
 					 m_places[positionOf(t[1])],
 					 m_places[positionOf(t[2])]}))
@@ -229,34 +233,15 @@ std::int64_t workOfStep(const Patch& patch)
 	return std::llround(n * (1.0 + std::sqrt(n / kFactorSize)));
 }
 
-/// What the patches of one repair have in common.
-struct PatchSetting
-{
-	const FlatMesh& flat;
-	const PointGroups& groups;
-	const RepairRules& rules;
-
-	PatchProblem problem(const Patch& patch, int maxSteps) const
-	{
-		return {
-			flat,
-			groups,
-			patch,
-			restShapes(flat, patch, rules.shapes, rules.validity),
-			rules.validity,
-			maxSteps};
-	}
-};
-
 /// Whether no places of its variables make a patch valid: a triangle has a side that stays and is too
 /// short; or the triangles need more than the area that the patch keeps where its border stays.
-bool isHopeless(const PatchSetting& setting, const Patch& patch)
+bool isHopeless(
+	const FlatMesh& flat, const PointGroups& groups, const Patch& patch, const Validity& validity)
 {
-	const Validity& validity = setting.rules.validity;
 	double area = 0.0;
 	bool borderStays = true;
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
-		const Triangle2 p = setting.flat.at(patch.triangles[i]);
+		const Triangle2 p = flat.at(patch.triangles[i]);
 		const Triangle& local = patch.corners[static_cast<int>(i)];
 		area += 0.5 * doubledArea(p);
 		int staying = 0;
@@ -268,7 +253,7 @@ bool isHopeless(const PatchSetting& setting, const Patch& patch)
 				distance(validity.stored(p[k]), validity.stored(p[next])) <= validity.height)
 				return true;
 			borderStays =
-				borderStays && (stays || setting.groups.inside[patch.points[positionOf(local[k])]]);
+				borderStays && (stays || groups.inside[patch.points[positionOf(local[k])]]);
 		}
 		if (staying == 3 && !validity.isValid(p))
 			return true;
@@ -310,7 +295,9 @@ bool apply(FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const
 /// \param work what is left after it
 /// \return [patch] what \p solve gives
 std::vector<Untangled> solveAll(
-	const PatchSetting& setting,
+	const FlatMesh& flat,
+	const PointGroups& groups,
+	const RepairRules& rules,
 	Untangled (*solve)(const PatchProblem&),
 	std::vector<Patch>& patches,
 	std::int64_t& work)
@@ -332,7 +319,7 @@ std::vector<Untangled> solveAll(
 		static_cast<int>(std::min(work / ofStep, std::int64_t(std::numeric_limits<int>::max())));
 	tasksInParallel(
 		static_cast<int>(patches.size()), threadsFor(kExpectedSteps * triangles), [&](int i) {
-			found[positionOf(i)] = solve(setting.problem(patches[positionOf(i)], maxSteps));
+			found[positionOf(i)] = solve({flat, groups, rules, patches[positionOf(i)], maxSteps});
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
 		work -= found[i].steps * workOfStep(patches[i]);
@@ -369,12 +356,7 @@ strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Validity
 		const Triangle& c = flat.points[f];
 		if (!moved[c[0]] && !moved[c[1]] && !moved[c[2]])
 			continue;
-		Patch alone;
-		alone.triangles = {f};
-		alone.points = {c[0], c[1], c[2]};
-		alone.corners.push_back({0, 1, 2});
-		const RestShape shape = restShapes(flat, alone, RestShapes::OfSurface, validity).front();
-		if (strain(shape, flat.at(f)) > kMaxStrain)
+		if (strain(restShape(flat, f, RestShapes::OfSurface, validity), flat.at(f)) > kMaxStrain)
 			strained.push_back(f);
 	}
 	return strained;
@@ -389,7 +371,6 @@ void easeStrained(
 	Repair& result)
 {
 	PatchFinder finder(flat, groups);
-	const PatchSetting setting{flat, groups, rules};
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
@@ -397,7 +378,7 @@ void easeStrained(
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
-		const std::vector<Untangled> found = solveAll(setting, ease, patches, work);
+		const std::vector<Untangled> found = solveAll(flat, groups, rules, ease, patches, work);
 		takeOver(patches, found, rules, flat, result);
 	}
 	limit.spend(before - work);
@@ -437,7 +418,6 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 		return result;
 	result.moved.assign(flat.place.size(), 0);
 	PatchFinder finder(flat, groups);
-	const PatchSetting setting{flat, groups, rules};
 	Array<std::size_t> failed(flat.points.size(), 0); // [triangle] size of its last patch
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
@@ -448,13 +428,14 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 				patches.begin(),
 				patches.end(),
 				[&](const Patch& patch) {
-					return isHardlyLarger(patch, failed) || isHopeless(setting, patch);
+					return isHardlyLarger(patch, failed) ||
+						   isHopeless(flat, groups, patch, rules.validity);
 				}),
 			patches.end());
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work);
+		const std::vector<Untangled> found = solveAll(flat, groups, rules, untangle, patches, work);
 		takeOver(patches, found, rules, flat, result);
 		for (const Patch& patch : patches)
 			for (const int f : patch.triangles)

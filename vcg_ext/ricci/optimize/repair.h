@@ -13,14 +13,26 @@
 
 namespace ricci {
 
-/// A patch whose triangles are to be valid, and as near to their rest shapes as its border lets them be.
+/// What a patch costs as it is in the map; called one after another.
+using CostOfPatch = std::function<double(const FlatMesh& flat, const Patch& patch)>;
+
+/// What a repair is after, and which patches it takes over.
+struct RepairRules
+{
+	RestShapes shapes;
+	Validity validity;
+	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
+	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
+	bool keepsBoundary = false;
+};
+
+/// A patch whose triangles are to be valid, and as near to the shapes of the rules as its border lets them be.
 struct PatchProblem
 {
 	const FlatMesh& flat;
 	const PointGroups& groups;
+	const RepairRules& rules;
 	const Patch& patch;
-	std::vector<RestShape> shapes; ///< [triangle of the patch]
-	const Validity& validity;
 	int maxSteps; ///< of Newton in all; then the search is over
 };
 
@@ -92,19 +104,6 @@ private:
 /// Triangles of \p flat that are not valid.
 std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 
-/// What a patch costs as it is in the map; called one after another.
-using CostOfPatch = std::function<double(const FlatMesh& flat, const Patch& patch)>;
-
-/// What a repair is after, and which patches it takes over.
-struct RepairRules
-{
-	RestShapes shapes;
-	Validity validity;
-	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
-	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
-	bool keepsBoundary = false;
-};
-
 /// Mends the triangles that are not valid: moves points near them, and no others.
 ///
 /// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
@@ -119,6 +118,18 @@ repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, Work
 /// Triangles of the surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit);
+
+/// Mends triangles of charts in the Poincaré disk that are flipped or too low.
+///
+/// The triangles round one of them are laid out side by side across seams, as in the universal cover, where
+/// they are or with that triangle at 0, and are untangled there as straight triangles (untangle.h). Every copy
+/// of a point that has moved follows by the isometry that takes the layout to its chart, so that the sides of
+/// seams stay congruent. Patches are taken one after another, and only where fewer triangles are wrong in the
+/// charts afterwards.
+/// \param rules cost is not asked
+/// \param boundaryMoves whether points of the surface's boundary may move
+Repair
+repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
 
 } // namespace ricci
 

@@ -15,9 +15,18 @@ namespace ricci {
 
 namespace {
 
+/// Whether the side of a piece that begins at this corner is on the cut.
+bool isOnCut(const PieceCorner& c, const EdgeArray<char>& isCut)
+{
+	return c.input.isValid() && isCut[c.input.edge()];
+}
+
+/// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
+/// meet off the cut. They form a surface without a cut.
 class SheetMaker
 {
 public:
+	/// \param isCut 1 on input edges
 	SheetMaker(
 		const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut) :
 			m_pieces(pieces),
@@ -107,18 +116,6 @@ private:
 	CornerArray<Corner> m_glued;       // [side of a sheet] the side across it
 };
 
-} // namespace
-
-EndSheets
-makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<char>& isCut)
-{
-	EndSheets sheets = SheetMaker(pieces, flow.metric->triangulation(), isCut).run();
-	takeMetric(flow, sheets);
-	return sheets;
-}
-
-namespace {
-
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
 opened(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
@@ -200,7 +197,8 @@ private:
 	/// Lays the sheets out and places the pieces in them.
 	void layOut()
 	{
-		const EndSheets sheets = makeSheets(m_pieces, m_flow, m_isCut);
+		EndSheets sheets = SheetMaker(m_pieces, m_end, m_isCut).run();
+		takeMetric(m_flow, sheets);
 		if (m_flow.target.background == Background::EuclideanPlane)
 			placeInPlane(sheets, layOutInPlane(sheets));
 		else {
@@ -237,7 +235,7 @@ private:
 		};
 		placePieces([&](int p, int corner) {
 			// Rounded once, as the two sides of a seam see their points from afar.
-			const ExtendedIsometry& frame = disk.frame[t.halfedge(sheets.of[p])];
+			const ExtendedIsometry& frame = disk[t.halfedge(sheets.of[p])];
 			return asPoint(std::complex<double>(frame(inSheet(p, corner).inDisk())));
 		});
 		m_kleinPoint.reserve(m_point.size());
@@ -288,7 +286,7 @@ private:
 			const auto a = sheets.triangulation.halfedges(sheets.of[left.piece]);
 			const auto b = sheets.triangulation.halfedges(sheets.of[right.piece]);
 			if (!side.end.isValid()) { // through one end triangle
-				own.offer(disk.frame[a[0]], disk.frame[b[0]]);
+				own.offer(disk[a[0]], disk[b[0]]);
 				continue;
 			}
 			const Halfedge h = a[m_end.corner(side.end).index()];

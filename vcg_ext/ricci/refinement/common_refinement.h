@@ -9,18 +9,6 @@
 
 namespace ricci {
 
-/// Whether the side of a piece that begins at this corner is on the cut.
-inline bool isOnCut(const PieceCorner& c, const EdgeArray<char>& isCut)
-{
-	return c.input.isValid() && isCut[c.input.edge()];
-}
-
-/// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
-/// meet off the cut. They form a surface without a cut.
-/// \param isCut [input edge]
-EndSheets
-makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<char>& isCut);
-
 /// The layout of the overlay \p pieces of the triangles of the input, of the start and of the end of \p flow, cut
 /// along the surface's edges with \p isCut: every piece lies in one triangle of each, and the map to the plane or
 /// the disk is the flow's own there. The vertices of the refinement are the surface's, then the points where

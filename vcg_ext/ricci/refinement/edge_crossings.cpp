@@ -183,7 +183,7 @@ void EdgeCrossings::placeInputCrossings()
 		const double size2 = dot(last, last);
 		double before = 0.0; // share of the crossing before on the input edge
 		for (std::size_t i = 0; i < strip.sides.size(); ++i) {
-			const Point2 &p = strip.sides[i].from, &q = strip.sides[i].to;
+			const auto& [p, q] = strip.sides[i];
 			const double dp = cross(p, last), dq = cross(q, last);
 			const double t = keepInside(dp / (dp - dq));
 			const Point2 x{mix(p[0], q[0], t), mix(p[1], q[1], t)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "overlay_nodes.h"
+#include "edge_crossings.h"
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"

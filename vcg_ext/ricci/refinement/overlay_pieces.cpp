@@ -7,7 +7,6 @@
 #include "../error.h"
 #include "chord_arrangement.h"
 #include "edge_crossings.h"
-#include "overlay_nodes.h"
 
 #include <algorithm>
 #include <utility>

@@ -92,9 +92,7 @@ OldOwners::OldOwners(
 			checkpointNowAndThen(64 * i);
 			const std::size_t f = positionOf(shown[i]);
 			const Triangle2 t = oldTexels(faces[f], width, height);
-			Box2 box;
-			for (const Point2& p : t)
-				box.add(p);
+			const Box2 box = boxAround(t);
 			const int key = keyOf(charts[f]);
 			Extent& extent = m_extents[positionOf(charts[f])];
 			// They start in the picture, which v leaves at the top.

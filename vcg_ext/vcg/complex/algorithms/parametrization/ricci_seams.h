@@ -6,7 +6,6 @@
 #ifndef __VCGLIB_RICCI_SEAMS
 #define __VCGLIB_RICCI_SEAMS
 
-#include <ricci/mesh/map_jumps.h>
 #include <ricci/mesh/sides.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
