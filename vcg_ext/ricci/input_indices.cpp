@@ -38,77 +38,63 @@ void averageCopies(const OpenedMesh& opened, std::size_t vertexCount, std::vecto
 		values.begin() + static_cast<std::ptrdiff_t>(ofCopies.size()));
 }
 
-/// Lays degenerate faces out beside the triangles that a map has.
-class DegenerateFaces
+/// Corners of one face of a map at whose places the corners of the degenerate face \p t lie; or none.
+/// \param cornersAt [vertex of the input] of the map
+std::array<Corner, 3>
+cornersFor(const Triangle& t, const FlatMesh& mesh, const Adjacency<int, Corner>& cornersAt)
 {
-public:
-	DegenerateFaces(const SurfaceMesh& input, const OpenedMesh& opened, FlatMesh& mesh) :
-			m_input(input), m_opened(opened), m_mesh(mesh),
-			m_corners(static_cast<int>(input.positions.size()), [&](const auto& add) {
-				for (const int f : mesh.vertices.indices())
-					for (const Corner c : cornersOf(f))
-						if (const int v = mesh.vertices[c]; positionOf(v) < input.positions.size())
-							add(v, c);
-			})
-	{
+	for (std::size_t k = 0; k < 3; ++k) {
+		const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+		if (t[next] == t[k])
+			continue;
+		for (const Corner p : cornersAt[t[k]])
+			for (const Corner q : cornersAt[t[next]])
+				if (mesh.face[p.face()] == mesh.face[q.face()]) {
+					std::array<Corner, 3> line;
+					line[k] = p;
+					line[next] = q;
+					line[last] = t[last] == t[k] ? p : q;
+					return line;
+				}
 	}
+	for (const int v : t)
+		for (const Corner corner : cornersAt[v])
+			return {corner, corner, corner};
+	return {};
+}
 
-	void layOut(int face)
-	{
-		const Triangle t = m_opened.withJoined(m_input.triangles[positionOf(face)]);
-		const auto at = [&](std::size_t k) { return m_input.positions[positionOf(t[k])]; };
-		const Corners corners = cornersFor(t);
+/// Lays degenerate faces out beside the triangles that a map has.
+void addDegenerate(const SurfaceMesh& input, const OpenedMesh& opened, FlatMesh& mesh)
+{
+	const Adjacency<int, Corner> cornersAt(
+		static_cast<int>(input.positions.size()), [&](const auto& add) {
+			for (const int f : mesh.vertices.indices())
+				for (const Corner c : cornersOf(f))
+					if (const int v = mesh.vertices[c]; positionOf(v) < input.positions.size())
+						add(v, c);
+		});
+	for (const int face : opened.degenerate) {
+		const Triangle t = opened.withJoined(input.triangles[positionOf(face)]);
+		const std::array<Corner, 3> corners = cornersFor(t, mesh, cornersAt);
 		Triangle points{-1, -1, -1};
 		for (std::size_t k = 0; k < 3; ++k) {
-			if (corners[k].isValid() && m_mesh.vertices[corners[k]] == t[k])
-				points[k] = m_mesh.points[corners[k]];
+			if (corners[k].isValid() && mesh.vertices[corners[k]] == t[k])
+				points[k] = mesh.points[corners[k]];
 			for (std::size_t j = 0; j < k; ++j)
 				if (t[j] == t[k])
 					points[k] = points[j];
 			if (points[k] >= 0)
 				continue;
-			points[k] = m_mesh.place.size();
-			m_mesh.place.push_back(corners[k].isValid() ? m_mesh.at(corners[k]) : Point2{0.0, 0.0});
+			points[k] = mesh.place.size();
+			mesh.place.push_back(corners[k].isValid() ? mesh.at(corners[k]) : Point2{0.0, 0.0});
 		}
-		m_mesh.vertices.push_back(t);
-		m_mesh.points.push_back(points);
-		m_mesh.lengths.push_back(
-			{distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
-		m_mesh.face.push_back(face);
-		m_mesh.chart.push_back(-1);
+		mesh.vertices.push_back(t);
+		mesh.points.push_back(points);
+		mesh.lengths.push_back(sideLengths(t, input.positions));
+		mesh.face.push_back(face);
+		mesh.chart.push_back(-1);
 	}
-
-private:
-	using Corners = std::array<Corner, 3>;
-
-	/// Corners of one face of the map at whose places the corners of a degenerate face lie; or none.
-	Corners cornersFor(const Triangle& t) const
-	{
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
-			if (t[next] == t[k])
-				continue;
-			for (const Corner p : m_corners[t[k]])
-				for (const Corner q : m_corners[t[next]])
-					if (m_mesh.face[p.face()] == m_mesh.face[q.face()]) {
-						Corners line;
-						line[k] = p;
-						line[next] = q;
-						line[last] = t[last] == t[k] ? p : q;
-						return line;
-					}
-		}
-		for (const int v : t)
-			for (const Corner corner : m_corners[v])
-				return {corner, corner, corner};
-		return {};
-	}
-
-	const SurfaceMesh& m_input;
-	const OpenedMesh& m_opened;
-	FlatMesh& m_mesh;
-	Adjacency<int, Corner> m_corners; // [vertex of the input]
-};
+}
 
 /// Swaps two corners of the triangles of reversed faces.
 void orientLikeInput(const OpenedMesh& opened, FlatMesh& mesh)
@@ -200,9 +186,7 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 			v = opened.vertex[positionOf(v)];
 	for (int& f : mesh.face)
 		f = opened.face[positionOf(f)];
-	DegenerateFaces degenerate(input, opened, mesh);
-	for (const int f : opened.degenerate)
-		degenerate.layOut(f);
+	addDegenerate(input, opened, mesh);
 	sortByFace(input.triangles.size(), mesh);
 	separateJoined(input, opened, map);
 }

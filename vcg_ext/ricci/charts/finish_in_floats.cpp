@@ -10,6 +10,7 @@
 #include "separate_charts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -23,25 +24,21 @@ namespace {
 /// A refinement of which more pieces are lost is not cut into so many charts.
 constexpr std::size_t kMostLost = 1000;
 
-/// What the triangles of a map have to be once they are stored.
-struct Wanted
+/// What the triangles of a map have to be once they are stored: also with six decimals, in the unit square; and
+/// as floats alone.
+std::array<Validity, 2> wantedOf(const FlatMesh& mesh, bool keepsMesh)
 {
-	Validity validity;
-	Validity inText; ///< also for coordinates with six decimals, in the unit square
-
-	Wanted(const FlatMesh& mesh, bool keepsMesh)
-	{
-		double largest = 0.0;
-		for (const Point2& p : mesh.place)
-			for (const double x : p)
-				largest = std::max(largest, std::abs(x));
-		const double height = kMinFloatSteps * floatStep(largest);
-		validity = {height, kWantedHeights * height, true};
-		inText = validity;
-		if (keepsMesh && largest > 0.5 && largest <= 1.0)
-			inText = {height, kWantedHeights * kTextStep, true, kTextStep};
-	}
-};
+	double largest = 0.0;
+	for (const Point2& p : mesh.place)
+		for (const double x : p)
+			largest = std::max(largest, std::abs(x));
+	const double height = kMinFloatSteps * floatStep(largest);
+	const Validity inFloats{height, kWantedHeights * height, true};
+	const bool hasText = keepsMesh && largest > 0.5 && largest <= 1.0;
+	return {
+		hasText ? Validity{height, kWantedHeights * kTextStep, true, kTextStep} : inFloats,
+		inFloats};
+}
 
 /// Whether a box lies in another one, both rounded to float.
 bool isIn(const Box2& box, const Box2& other)
@@ -113,15 +110,16 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 {
 	const Box2 limits = boxOfCharts(map);
-	const Wanted wanted(map.mesh, rules.keepsMesh);
+	const auto wanted = wantedOf(map.mesh, rules.keepsMesh);
+	const auto& [inText, inFloats] = wanted;
 	const CostOfPatch overlaps = overlapCount(
 		map.mesh,
-		wanted.validity.height / kMinFloatSteps,
+		inFloats.height / kMinFloatSteps,
 		rules.mayGrow ? std::nullopt : std::optional<Box2>(limits));
 	WorkLimit limit(map.mesh.size());
 	Repair result;
 	// Where there is no room for text, floats have to do.
-	for (const Validity& validity : {wanted.inText, wanted.validity})
+	for (const Validity& validity : wanted)
 		result.add(repairInStages(
 			map.mesh,
 			[](int) { return false; },
@@ -133,10 +131,10 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 	const bool cuts = result.left > 0 && rules.mayCut;
 	done.needsPacking = cuts || (done.moved > 0 && !isIn(map.mesh.box(), limits));
 	if (cuts) {
-		const std::vector<int> lost = badTriangles(map.mesh, wanted.validity);
+		const std::vector<int> lost = badTriangles(map.mesh, inFloats);
 		if (!rules.keepsMesh && lost.size() > kMostLost)
 			throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
-		setApart(lost, wanted.inText, map);
+		setApart(lost, inText, map);
 	}
 	return done;
 }

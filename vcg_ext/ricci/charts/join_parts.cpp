@@ -208,7 +208,7 @@ class CrumbDivider
 {
 public:
 	CrumbDivider(const FlatMesh& chart, MovableParts& parts) :
-			m_chart(chart), m_parts(parts), m_mark(chart.size(), kNone), m_scratch(chart.size(), -1)
+			m_chart(chart), m_parts(parts), m_isMarked(chart.size(), 0), m_scratch(chart.size(), -1)
 	{
 	}
 
@@ -273,8 +273,7 @@ private:
 		std::vector<int> covered;
 		double area = 0.0;
 		m_parts.covering(part, place, [&](int g) {
-			if (m_mark[g] == kNone) {
-				m_mark[g] = kTaken;
+			if (!std::exchange(m_isMarked[g], 1)) {
 				covered.push_back(g);
 				area += m_parts.areaOf(g);
 			}
@@ -332,8 +331,8 @@ private:
 	{
 		for (const std::vector<int>* triangles : {&removed, &added})
 			for (const int f : *triangles)
-				m_mark[f] = kTaken;
-		const auto isIn = [&](int f) { return m_parts.partOf(f) == part && m_mark[f] != kTaken; };
+				m_isMarked[f] = 1;
+		const auto isIn = [&](int f) { return m_parts.partOf(f) == part && !m_isMarked[f]; };
 		std::vector<int> ends;
 		for (const int f : removed)
 			m_parts.forSides(f, [&](Corner, Corner across) {
@@ -359,11 +358,8 @@ private:
 		std::vector<int> covering, free;
 		const MovableParts::Groups near = m_parts.groupsNear(part, place);
 		const auto take = [&](int f) {
-			if (m_parts.partOf(f) != part || m_mark[f] != kNone)
-				return;
-			const bool isFree = !m_parts.covers(f, place.motion, near);
-			m_mark[f] = isFree ? kTaken : kCovering;
-			(isFree ? free : covering).push_back(f);
+			if (m_parts.partOf(f) == part && !std::exchange(m_isMarked[f], 1))
+				(m_parts.covers(f, place.motion, near) ? covering : free).push_back(f);
 		};
 		for (const int f : m_parts.trianglesOf(part))
 			m_parts.forSides(f, [&](Corner side, Corner across) {
@@ -384,15 +380,13 @@ private:
 	void unmark(const std::vector<int>& triangles)
 	{
 		for (const int f : triangles)
-			m_mark[f] = kNone;
+			m_isMarked[f] = 0;
 	}
-
-	enum Mark : char { kNone, kCovering, kTaken };
 
 	const FlatMesh& m_chart;
 	MovableParts& m_parts;
-	Array<char> m_mark;   // [triangle] Mark, kNone between uses
-	Array<int> m_scratch; // [triangle] -1 between uses
+	Array<char> m_isMarked; // [triangle] 0 between uses
+	Array<int> m_scratch;   // [triangle] -1 between uses
 };
 
 } // namespace

@@ -63,97 +63,39 @@ PointGroups withBoundary(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 	return result;
 }
 
-/// Joins the copies of the seam vertices by the sides of the seams.
-class CopyGroups
+/// What both sides of the seams tell of the copies of points at their ends, those of the longest sides first.
+/// \param points each a group by itself; those of sides that differ in length become fixed
+std::vector<std::pair<int, Copy>> copiesOf(const FlatMesh& flat, PointGroups& points)
 {
-public:
-	CopyGroups(const FlatMesh& flat, const BoundaryRule& boundaryMoves) :
-			m_flat(flat), m_points(withBoundary(flat, boundaryMoves))
-	{
-		const double rounding = kDiskRounding * flat.box().extent();
-		forBorders(flat, [&](Corner side) {
-			if (flat.across[side] > side)
-				joinSides(side, rounding);
-		});
-		// The longest sides are followed first.
-		std::stable_sort(m_copies.begin(), m_copies.end(), [](const auto& x, const auto& y) {
-			return x.second.error < y.second.error;
-		});
-	}
-
-	PointGroups groups() const
-	{
-		PointGroups result = m_points;
-		const int count = m_flat.place.size();
-		const Adjacency<int, Copy> copies(count, [&](const auto& add) {
-			for (const auto& [point, copy] : m_copies)
-				add(point, copy);
-		});
-		result.group.assign(count, -1);
-		result.first.clear();
-		result.fixed.clear();
-		Array<double> error(count, 0.0);
-		std::vector<int> members;
-		for (int first = 0; first < count; ++first) {
-			if (result.group[first] >= 0)
-				continue;
-			const int group = result.first.size();
-			bool fixed = false;
-			members.assign(1, first);
-			result.group[first] = group;
-			for (std::size_t i = 0; i < members.size(); ++i) {
-				const int p = members[i];
-				fixed = fixed || m_points.fixed[p];
-				for (const Copy& copy : copies[p]) {
-					Complex turn = copy.turn * result.turn[p];
-					turn /= std::abs(turn);
-					if (result.group[copy.point] < 0) {
-						result.group[copy.point] = group;
-						result.turn[copy.point] = turn;
-						error[copy.point] = error[p] + copy.error;
-						members.push_back(copy.point);
-						fixed = fixed || error[copy.point] > kMaxTurnError;
-					}
-					else if (!(std::abs(turn / result.turn[copy.point] - 1.0) <=
-							   kSeamMatch + error[p] + copy.error + error[copy.point]))
-						fixed = true; // another way round the vertex is another motion
-				}
-			}
-			result.first.push_back(first);
-			result.fixed.push_back(fixed);
-		}
-		return result;
-	}
-
-private:
-	Complex place(int point) const { return asComplex(m_flat.place[point]); }
-
-	/// Joins both ends of the two sides of an edge.
-	void joinSides(Corner side, double rounding)
-	{
-		const Corner across = m_flat.across[side];
-		const std::array<int, 2> one{m_flat.points[side], m_flat.points[side.next()]};
-		const std::array<int, 2> other{m_flat.points[across.next()], m_flat.points[across]};
+	const double rounding = kDiskRounding * flat.box().extent();
+	std::vector<std::pair<int, Copy>> copies; // of points
+	forBorders(flat, [&](Corner side) {
+		const Corner across = flat.across[side];
+		if (across <= side)
+			return;
+		const std::array<int, 2> one{flat.points[side], flat.points[side.next()]};
+		const std::array<int, 2> other{flat.points[across.next()], flat.points[across]};
+		const auto place = [&](int point) { return asComplex(flat.place[point]); };
 		const Complex a = place(one[0]), b = place(one[1]);
 		const Complex c = place(other[0]), d = place(other[1]);
 		const double first = std::abs(b - a), second = std::abs(d - c);
 		const double error = rounding / std::max(std::min(first, second), rounding);
 		if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
 			for (const int p : {one[0], one[1], other[0], other[1]})
-				m_points.fixed[p] = 1;
+				points.fixed[p] = 1;
 			return;
 		}
 		const Complex turn = error < 1.0 ? turnOf(a, b, c, d) : 1.0;
 		for (std::size_t i = 0; i < 2; ++i) {
-			m_copies.push_back({one[i], {other[i], turn, error}});
-			m_copies.push_back({other[i], {one[i], std::conj(turn), error}});
+			copies.push_back({one[i], {other[i], turn, error}});
+			copies.push_back({other[i], {one[i], std::conj(turn), error}});
 		}
-	}
-
-	const FlatMesh& m_flat;
-	PointGroups m_points;                       // each a group by itself
-	std::vector<std::pair<int, Copy>> m_copies; // of points
-};
+	});
+	std::stable_sort(copies.begin(), copies.end(), [](const auto& x, const auto& y) {
+		return x.second.error < y.second.error;
+	});
+	return copies;
+}
 
 /// Joins the points on the right of a seam to those on its left by the turn that fits its sides best.
 /// \param copies on the left and on the right
@@ -207,7 +149,48 @@ PointGroups insidePoints(const FlatMesh& flat)
 
 PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves)
 {
-	return CopyGroups(flat, boundaryMoves).groups();
+	PointGroups result = withBoundary(flat, boundaryMoves);
+	const auto listed = copiesOf(flat, result);
+	const int count = flat.place.size();
+	const Adjacency<int, Copy> copies(count, [&](const auto& add) {
+		for (const auto& [point, copy] : listed)
+			add(point, copy);
+	});
+	const Array<char> isFixed = std::move(result.fixed); // [point]
+	result.group.assign(count, -1);
+	result.first.clear();
+	result.fixed.clear();
+	Array<double> error(count, 0.0);
+	std::vector<int> members;
+	for (int first = 0; first < count; ++first) {
+		if (result.group[first] >= 0)
+			continue;
+		const int group = result.first.size();
+		bool fixed = false;
+		members.assign(1, first);
+		result.group[first] = group;
+		for (std::size_t i = 0; i < members.size(); ++i) {
+			const int p = members[i];
+			fixed = fixed || isFixed[p];
+			for (const Copy& copy : copies[p]) {
+				Complex turn = copy.turn * result.turn[p];
+				turn /= std::abs(turn);
+				if (result.group[copy.point] < 0) {
+					result.group[copy.point] = group;
+					result.turn[copy.point] = turn;
+					error[copy.point] = error[p] + copy.error;
+					members.push_back(copy.point);
+					fixed = fixed || error[copy.point] > kMaxTurnError;
+				}
+				else if (!(std::abs(turn / result.turn[copy.point] - 1.0) <=
+						   kSeamMatch + error[p] + copy.error + error[copy.point]))
+					fixed = true; // another way round the vertex is another motion
+			}
+		}
+		result.first.push_back(first);
+		result.fixed.push_back(fixed);
+	}
+	return result;
 }
 
 PointGroups joinedPoints(

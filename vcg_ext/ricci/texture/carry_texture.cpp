@@ -184,19 +184,6 @@ struct OldPicture
 	const PictureView<const Sample>& view;
 	OldOwners owners;
 	PictureSampler<Sample> sampler;
-
-	/// \param lastLevel of the blocks that the picture is read in
-	OldPicture(
-		int picture,
-		const PictureView<const Sample>& samples,
-		bool hasAlpha,
-		OldOwners&& ofTexels,
-		int lastLevel) :
-			number(picture),
-			view(samples), owners(std::move(ofTexels)), sampler(samples, hasAlpha, lastLevel)
-	{
-		owners.addLevels(lastLevel);
-	}
 };
 
 /// Draws the texels of all triangles in one old picture after the other.
@@ -406,12 +393,10 @@ void carryTexture(
 			if (faces[i].empty())
 				continue;
 			const PictureView<const Sample>& view = pictures[i];
-			const OldPicture<Sample> old(
-				static_cast<int>(i),
-				view,
-				hasAlpha,
-				{mesh.faces, charts, faces[i], view.width, view.height},
-				lastLevels[i]);
+			OldOwners owners(mesh.faces, charts, faces[i], view.width, view.height);
+			owners.addLevels(lastLevels[i]);
+			const OldPicture<Sample> old{
+				static_cast<int>(i), view, std::move(owners), {view, hasAlpha, lastLevels[i]}};
 			drawing.draw(&old);
 		}
 		if (!faces.back().empty())
