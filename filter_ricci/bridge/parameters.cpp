@@ -230,31 +230,16 @@ void readChoice(const Parameters& par, const char* id, Enum& value)
 		uses + ".");
 }
 
-TextureSettings checkedTexture(const Parameters& par)
+/// \throw Refusal unless it is from \p least to \p most, which are \p units
+int checked(const Parameters& par, const char* id, int least, int most, const std::string& units)
 {
-	TextureSettings texture;
-	texture.file = trimmed(valueOf<std::string>(par, "carry_texture"));
-	texture.size = valueOf<int>(par, "texture_size");
-	if (texture.size != 0 && (texture.size < kMinTextureSize || texture.size > kMaxTextureSize))
-		throw Refusal(unusable(
-			std::to_string(texture.size),
-			"texture_size",
-			std::to_string(kMinTextureSize) + " to " + std::to_string(kMaxTextureSize) +
-				" texels, or 0 for as many as keep the old ones"));
-	return texture;
-}
-
-int checkedPadding(const Parameters& par)
-{
-	const int padding = valueOf<int>(par, "padding"), size = valueOf<int>(par, "texture_size");
-	const int most = static_cast<int>(
-		ricci::kMaxChartMargin * (size > 0 ? size : static_cast<int>(kMaxTextureSize)));
-	if (padding >= 0 && padding <= most)
-		return padding;
+	const int value = valueOf<int>(par, id);
+	if (value >= least && value <= most)
+		return value;
 	throw Refusal(unusable(
-		std::to_string(padding),
-		"padding",
-		"0 to " + std::to_string(most) + " pixels, a quarter of {texture_size}"));
+		std::to_string(value),
+		id,
+		std::to_string(least) + " to " + std::to_string(most) + " " + units));
 }
 
 RunSettings readRunSettings(const Parameters& par)
@@ -264,7 +249,15 @@ RunSettings readRunSettings(const Parameters& par)
 	settings.colorize = valueOf<bool>(par, "colorize");
 	settings.timeLimit = valueOf<double>(par, "time_limit");
 	settings.report = trimmed(valueOf<std::string>(par, "report"));
-	settings.texture = checkedTexture(par);
+	settings.texture.file = trimmed(valueOf<std::string>(par, "carry_texture"));
+	settings.texture.size = valueOf<int>(par, "texture_size");
+	if (settings.texture.size != 0)
+		checked(
+			par,
+			"texture_size",
+			kMinTextureSize,
+			kMaxTextureSize,
+			"texels, or 0 for as many as keep the old ones");
 	return settings;
 }
 
@@ -428,7 +421,9 @@ Settings readSettings(const Parameters& par)
 	settings.flow.freeBoundary = valueOf<bool>(par, "free_boundary");
 	settings.flow.seamHiding = valueOf<double>(par, "seam_hiding");
 	settings.flow.normalizeUV = valueOf<bool>(par, "normalize_uv");
-	settings.padding = checkedPadding(par);
+	const int texels = settings.texture.size > 0 ? settings.texture.size : kMaxTextureSize;
+	const int most = static_cast<int>(ricci::kMaxChartMargin * texels);
+	settings.padding = checked(par, "padding", 0, most, "pixels, a quarter of {texture_size}");
 	readChoice(par, "holes", settings.flow.holes);
 	int layers = 0;
 	readChoice(par, "layers", layers);
@@ -450,12 +445,7 @@ HyperbolicSettings readHyperbolicSettings(const Parameters& par)
 	settings.flatLayer = valueOf<bool>(par, "flat_layer");
 	settings.flow.coneAngle = valueOf<double>(par, "cone_angle") * kDegree;
 	settings.flow.freeBoundary = valueOf<bool>(par, "free_boundary");
-	settings.coverRings = valueOf<int>(par, "universal_cover");
-	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
-		throw Refusal(unusable(
-			std::to_string(settings.coverRings),
-			"universal_cover",
-			"0 to " + std::to_string(kMaxRings) + " rings"));
+	settings.coverRings = checked(par, "universal_cover", 0, kMaxRings, "rings");
 	settings.axes = valueOf<bool>(par, "generator_axes");
 	settings.canonicalPolygon = valueOf<bool>(par, "canonical_polygon");
 	settings.flow.canonicalGenerators = settings.axes || settings.canonicalPolygon;

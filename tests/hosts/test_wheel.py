@@ -478,6 +478,8 @@ class Functions(unittest.TestCase):
         for edges in ([sorted(pair) for pair in creases], marks):
             result = flatten(vertices, faces, selected_edges=edges)
             self.assertEqual((result.charts, result.chosen_seam_edges), (14, len(creases)))
+        sharp = flatten(vertices, faces, seams="Sharp edges", sharp_angle=60.0)
+        self.assertTrue(numpy.array_equal(sharp.uv, result.uv))
         again = flatten(vertices, faces, uv=result.uv)
         self.assertEqual((again.charts, again.chosen_seam_edges), (14, len(creases)))
         half = vertices[faces].mean(axis=1)[:, 0] > 2.5
@@ -515,6 +517,15 @@ class Functions(unittest.TestCase):
                 told = flatten(*mesh, **values).messages
             self.assertEqual({line.split()[0] for line in told if "has no effect" in line},
                              ignored, values)
+
+    def test_real_size_has_the_same_charts(self):
+        for mesh in (meshes.torus(), meshes.double_torus(), meshes.hill()):
+            fitted, real = (flatten(*arrays(mesh), normalize_uv=normalize) for normalize in (True, False))
+            for key in ("charts", "seam_edges", "overlap_cuts", "seam_length", "cones", "padding_pixels"):
+                self.assertEqual(fitted.results[key], real.results[key], key)
+            if fitted.charts > 1:
+                scale = numpy.ptp(real.uv) / numpy.ptp(fitted.uv)
+                self.assertLess(numpy.abs(real.uv - scale * fitted.uv).max(), 1e-5 * scale)
 
     def test_no_sphere_layer_of_another_surface(self):
         for mesh in (meshes.torus(), meshes.hill()):
