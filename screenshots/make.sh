@@ -63,18 +63,18 @@ make_meshes() {
 	convert -size 64x64 pattern:gray50 -scale 1024x1024 +level-colors '#7c8fa6,white' \
 		-type TrueColor "$work/checkerboard.png"
 	server -s "$root/filter_ricci/demo/torus_like.mlx" -o mesh.ply || fail "meshlabserver made no mesh"
-	script generalized.mlx colorize=false
+	script generalized.mlx options=
 	white generalized.mlx
 	textured generalized.mlx
 	run_script generalized.mlx -i mesh.ply -o generalized.ply -m wt vc vn
-	script thurston.mlx colorize=false method=3
+	script thurston.mlx options= method=3
 	white thurston.mlx
 	textured thurston.mlx
 	run_script thurston.mlx -i mesh.ply -o thurston.ply -m wt vc vn
 	script distortion.mlx
 	run_script distortion.mlx -i mesh.ply -o distortion.ply -m vc vq vn
 	# Only the current layer is saved, and that is the flat one once the other has gone.
-	script flat.mlx colorize=false flat_layer=true
+	script flat.mlx options= layers=1
 	then_filter flat.mlx "Delete Current Mesh"
 	white flat.mlx
 	run_script flat.mlx -i generalized.ply -o flat.ply -m wt vc vn
@@ -110,9 +110,9 @@ at_cones() {
 make_statue() {
 	bash "$root/tests/unpack_cgal_meshes.sh" "$build/cgal_meshes" || fail "no statue without libcgal-demo"
 	cp "$build/cgal_meshes/data/meshes/armadillo.off" "$work/statue.off"
-	script cones.mlx colorize=false output_triangulation=1
+	script cones.mlx options= output_triangulation=1
 	run_script cones.mlx -i statue.off -o cones.ply
-	script statue.mlx colorize=false output_triangulation=1
+	script statue.mlx options= output_triangulation=1
 	white statue.mlx
 	textured statue.mlx
 	then_filter statue.mlx "Conditional Vertex Selection" \

@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -171,6 +172,51 @@ TEST(ChosenSeams, UnfoldABoxToItsNet)
 			EXPECT_EQ(jumps(mesh, r), chosen);
 		}
 	}
+}
+
+/// The edges of a box have right angles, those of a prism of 12 sides 30 degrees. Faces that are turned over bend no
+/// more, and sides inside polygons are none.
+TEST(ChosenSeams, AreSharpEdges)
+{
+	const auto cutAbove = [](const SurfaceMesh& mesh, double degrees, auto options) {
+		options.sharpAngle = degrees * kPi / 180.0;
+		if constexpr (std::is_same_v<decltype(options), Options>)
+			return parametrizeEuclidean(mesh, {}, options);
+		else
+			return parametrizeHyperbolic(mesh, {}, options);
+	};
+	const SurfaceMesh box = perforatedSlab(0, 2); // 1 x 3 x 1, edges of length 1/2
+	for (const SurfaceMesh& mesh : {box, withReversedFaces(box, 3)})
+		for (const double degrees : {1.0, 89.0, 91.0}) {
+			const Report r = cutAbove(mesh, degrees, unscaled()).report;
+			const bool isCut = degrees < 90.0;
+			EXPECT_EQ(r.chosenSeamEdges, isCut ? 40 : 0);
+			EXPECT_NEAR(r.chosenSeamLength, isCut ? 20.0 : 0.0, 1e-12);
+			if (isCut) {
+				EXPECT_EQ(r.charts, 6);
+				EXPECT_NEAR(*r.stretch, 4.0, 1e-9);
+			}
+		}
+	const SurfaceMesh prism = revolved({{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}}, 12);
+	EXPECT_EQ(cutAbove(prism, 29.0, unscaled()).report.charts, 12);
+	EXPECT_EQ(cutAbove(prism, 29.0, unscaled()).report.chosenSeamEdges, 24);
+	EXPECT_EQ(cutAbove(prism, 31.0, unscaled()).report.chosenSeamEdges, 0);
+	EXPECT_EQ(cutAbove(prism, 180.0, unscaled()).report.chosenSeamEdges, 0);
+	SurfaceMesh polygons = prism;
+	for (const Triangle& t : prism.triangles) { // its long sides are inside polygons
+		polygons.diagonal.push_back({0, 0, 0});
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point3 side = prism.positions[at(t[(k + 1) % 3])] - prism.positions[at(t[k])];
+			polygons.diagonal.back()[k] = std::abs(side[2]) > 0.5 && length(side) < 1.01;
+		}
+	}
+	EXPECT_EQ(cutAbove(polygons, 29.0, unscaled()).report.chosenSeamEdges, 0);
+	const SurfaceMesh slab = perforatedSlab(2, 1); // its top and bottom have three boundaries each
+	const Report plane = cutAbove(slab, 89.0, Options()).report;
+	const Report disk = cutAbove(slab, 89.0, HyperbolicOptions()).report;
+	EXPECT_GT(plane.chosenSeamEdges, 0);
+	EXPECT_EQ(disk.chosenSeamEdges, plane.chosenSeamEdges);
+	EXPECT_EQ(disk.components - disk.leftOutComponents, 2);
 }
 
 TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)

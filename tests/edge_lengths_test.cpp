@@ -232,6 +232,7 @@ TEST(FromLengths, WhatNeedsPositionsIsRefused)
 	EXPECT_TRUE(refused([](Options& o) { o.method = Method::EdgeSwaps; }));
 	EXPECT_TRUE(refused([](Options& o) { o.output = OutputTriangulation::CommonRefinement; }));
 	EXPECT_TRUE(refused([](Options& o) { o.seamHiding = 0.5; }));
+	EXPECT_TRUE(refused([](Options& o) { o.sharpAngle = 0.5; }));
 	EXPECT_TRUE(refused([](Options& o) { o.cones.rounding = ConeRounding::QuarterTurns; }));
 	EXPECT_FALSE(refused([](Options& o) { o.target = TargetCurvature::Disk; }));
 	EXPECT_EQ(

@@ -180,6 +180,11 @@ std::vector<Refusal> options()
 		add("Epsilon", with(change), E(E::Epsilon, x), "must be greater than 0 radians");
 		add("DiskEpsilon", inDisk(change), E(E::Epsilon, x), "must be greater than 0 radians");
 	}
+	for (const double x : {0.0, -1.0, 3.2, kNaN}) {
+		const auto change = [=](FlowOptions& o) { o.sharpAngle = x; };
+		add("SharpAngle", with(change), E(E::SharpAngle, x), "greater than 0 and at most pi");
+		add("DiskSharpAngle", inDisk(change), E(E::SharpAngle, x), "greater than 0 and at most pi");
+	}
 	for (const double x : {-1.0, kNaN, kInfinity})
 		add("ConeDistortion",
 			with([=](Options& o) { o.cones.distortion = x; }),
@@ -218,14 +223,6 @@ std::vector<Refusal> options()
 			E(isKept ? E::WithoutFlips : E::HyperbolicMethod),
 			isKept ? words : "no edge swaps and no Thurston packing");
 	}
-	SurfaceMesh many; // 30 charts need more than 5 such margins side by side
-	for (int i = 0; i < 30; ++i)
-		many = sideBySide(many, sheet, 3.0 * i);
-	table.add(
-		"ChartMarginTooWide",
-		{"", many, with([](Options& o) { o.chartMargin = kMaxChartMargin; })},
-		E(E::ChartMarginTooWide, kMaxChartMargin, 0.0, 30),
-		"leaves no room for 30 charts");
 	return table.rows();
 }
 

@@ -48,9 +48,12 @@ std::string withNames(int filter, std::string text)
 {
 	for (const Parameter& parameter : filterParameters(filter)) {
 		const std::string id = "{" + parameter.name + "}";
+		const std::string name = !host::hasWindow() ? parameter.name
+								 : parameter.place == Place::Options
+									 ? parameter.name + " ('Options')"
+									 : "'" + parameter.label + "'";
 		for (std::size_t at = 0; (at = text.find(id, at)) != std::string::npos;)
-			text.replace(
-				at, id.size(), host::hasWindow() ? "'" + parameter.label + "'" : parameter.name);
+			text.replace(at, id.size(), name);
 	}
 	return text;
 }
@@ -153,6 +156,7 @@ Openings chosenSeams(const MeshModel& model, Seams seams)
 	Flow::SideMarks& marks = openings.marks;
 	switch (seams) {
 	case Seams::Shortest:
+	case Seams::Sharp:
 		break;
 	case Seams::Texture:
 		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
@@ -385,33 +389,39 @@ void writeMesh(
 		removeColours(model);
 }
 
-/// The flow with padding for a texture between its charts.
-/// \throw Refusal if so many charts do not fit
-Flow::Result
-computeFor(const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Openings& seams)
+/// The texels that padding is counted in, before the map is known.
+int texelsOf(const CarriedTexture& texture, const TextureSettings& settings)
 {
-	const bool widens = texture.minMargin() > par.chartMargin;
-	if (widens) {
-		par.chartMargin = texture.minMargin();
+	return texture.isWanted()  ? texture.size()
+		   : settings.size > 0 ? settings.size
+							   : TextureSettings().size;
+}
+
+/// The flow with the padding between its charts, or what a texture needs.
+/// \throw Refusal if so many charts do not fit into a texture
+Flow::Result computeFor(
+	const CarriedTexture& texture, MeshModel& model, Settings& settings, const Openings& seams)
+{
+	const int texels = texelsOf(texture, settings.texture);
+	double& margin = settings.flow.chartMargin;
+	margin = std::min(static_cast<double>(settings.padding) / texels, ricci::kMaxChartMargin);
+	if (texture.minMargin() > margin) {
+		margin = texture.minMargin();
 		ricci::logLine(
-			"Texture: {chart_margin} " + ricci::numberText(par.chartMargin, 3) +
-			" keeps its charts apart.");
+			"Texture: its charts are kept " + ricci::numberText(margin * texels, 3) +
+			" pixels apart, more than {padding}.");
 	}
-	try {
-		return Flow::Compute(model.cm, par, seams.marks, seams.map);
-	}
-	catch (const ricci::InvalidOption& e) {
-		if (!widens || e.problem != ricci::InvalidOption::ChartMarginTooWide)
-			throw;
+	Flow::Result result = Flow::Compute(model.cm, settings.flow, seams.marks, seams.map);
+	if (result.report.margin < texture.minMargin())
 		throw Refusal(
-			"There are " + std::to_string(e.count) +
-			(texture.size() < kMaxTextureSize
+			"There are " + std::to_string(result.report.charts) +
+			(texels < kMaxTextureSize
 				 ? " charts, too many to be kept apart in a texture of this size: raise "
 				   "{texture_size}, to " +
 					   std::to_string(kMaxTextureSize) + " at most."
 				 : " charts, too many to be kept apart in any texture: leave {carry_texture} "
 				   "empty."));
-	}
+	return result;
 }
 
 /// See Outcome. Before the mesh is written.
@@ -478,6 +488,10 @@ public:
 			const ricci::Task writing(drawn, 1.0);
 			texture.write();
 		}
+		results.push_back(
+			{"padding_pixels",
+			 result.report.margin * texelsOf(texture, m_settings.texture),
+			 "Pixels between charts and to the border"});
 		const std::vector<std::string> sentences = summary(filter, par, result.report, results);
 		RunReport report{
 			filterText(filter).name,
@@ -568,7 +582,7 @@ Outcome applyEuclidean(const Parameters& par, MeshDocument& md, ricci::Progress&
 	}
 	const Flow::Result result = [&] {
 		const ricci::Task flow(share, run.flowShare());
-		return computeFor(run.texture, run.model, settings.flow, run.seams);
+		return computeFor(run.texture, run.model, settings, run.seams);
 	}();
 	Results results = toResults(result.report);
 	addPlacedCones(result, results);

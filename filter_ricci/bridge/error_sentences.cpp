@@ -69,22 +69,6 @@ std::string inWords(const ricci::InvalidMesh& e)
 	return std::string(e.what()) + remedy(e);
 }
 
-/// \p value as the user wrote it, and what to write instead.
-std::string unusable(double value, const char* parameter, const std::string& use)
-{
-	return "The value " + numberText(value, 6) + " of {" + parameter + "} cannot be used. " + use;
-}
-
-std::string unusable(int value, const char* parameter, const std::string& use)
-{
-	return "The value " + std::to_string(value) + " of {" + parameter + "} cannot be used. " + use;
-}
-
-std::string unusableShare(double value, const char* parameter, double max)
-{
-	return unusable(value, parameter, "Use a number from 0 to " + numberText(max, 6) + ".");
-}
-
 std::string inWords(const ricci::InvalidOption& e)
 {
 	using Error = ricci::InvalidOption;
@@ -93,30 +77,36 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::NoSuchChoice:
 	case Error::MemoryLimit:
 	case Error::BoxPlaces:
+	case Error::ChartMargin:
 		return reported(e);
 	case Error::TimeLimit:
-		return unusable(e.value, "time_limit", "Use a number of seconds, or 0 for no limit.");
+		return unusable(
+			numberText(e.value, 6), "time_limit", "a number of seconds, or 0 for no limit");
 	case Error::Epsilon:
 		return unusable(
-			e.value, "epsilon", "Use a number of radians greater than 0, for example 1e-8.");
+			numberText(e.value, 6),
+			"epsilon",
+			"a number of radians greater than 0, for example 1e-8");
+	case Error::SharpAngle:
+		return unusable(
+			numberText(e.value * 180.0 / ricci::kPi, 6),
+			"sharp_angle",
+			"degrees above 0, at most 180");
 	case Error::ConeCount:
 		return unusable(
-			static_cast<int>(e.value),
+			numberText(e.value, 10),
 			"cone_count",
-			"Use the number of cones, or 0 to have it chosen by {cone_distortion}.");
+			"the number of cones, or 0 to have it chosen by {cone_distortion}");
 	case Error::ConeDistortion:
 		return unusable(
-			e.value, "cone_distortion", "Use 0, or a number greater than 0, for example 0.25.");
+			numberText(e.value, 6),
+			"cone_distortion",
+			"0, or a number greater than 0, for example 0.25");
 	case Error::ConeAngle:
 		return "{cone_angle} must be greater than 0 degrees, not " +
 			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";
 	case Error::SeamHiding:
-		return unusableShare(e.value, "seam_hiding", 1.0);
-	case Error::ChartMargin:
-		return unusableShare(e.value, "chart_margin", e.bound);
-	case Error::ChartMarginTooWide:
-		return "{chart_margin} " + numberText(e.value, 6, std::chars_format::fixed) +
-			   " leaves no room for " + count + " charts: choose a smaller one.";
+		return unusable(numberText(e.value, 6), "seam_hiding", "a number from 0 to 1");
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
 			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";
@@ -301,6 +291,11 @@ std::string inWordsOf(const ricci::Error& error)
 }
 
 } // namespace
+
+std::string unusable(const std::string& value, const char* parameter, const std::string& use)
+{
+	return "The value " + value + " of {" + parameter + "} cannot be used. Use " + use + ".";
+}
 
 std::string sentence(const ricci::Error& error)
 {

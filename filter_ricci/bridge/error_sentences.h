@@ -22,6 +22,9 @@ class Refusal : public std::runtime_error
 /// several components the one that failed is named first. UTF-8, never with a decimal comma.
 std::string sentence(const ricci::Error& error);
 
+/// Of a value that a parameter cannot have, and what to use: a noun.
+std::string unusable(const std::string& value, const char* parameter, const std::string& use);
+
 /// The exception being handled as a sentence for the user. Call it inside a catch block only.
 std::string currentErrorSentence();
 

@@ -52,11 +52,12 @@ Kind kindOf(const Parameter& p)
 
 std::string described(const Parameter& p)
 {
+	const char* const places[] = {"shown", "advanced", "options"};
 	const Kind kind = kindOf(p);
 	std::string json = "{\"name\":" + quoted(p.name) + ",\"label\":" + quoted(p.label) +
-					   ",\"tooltip\":" + quoted(p.tooltip) +
-					   ",\"advanced\":" + (p.isAdvanced ? "true" : "false") + ",\"type\":\"" +
-					   kind.name + "\",\"default\":" + kind.value;
+					   ",\"tooltip\":" + quoted(p.tooltip) + ",\"place\":\"" +
+					   places[static_cast<int>(p.place)] + "\",\"type\":\"" + kind.name +
+					   "\",\"default\":" + kind.value;
 	for (std::size_t i = 0; i < p.choices.size(); ++i)
 		json += (i == 0 ? ",\"choices\":[" : ",") + quoted(p.choices[i]);
 	if (!p.choices.empty())
@@ -71,8 +72,14 @@ std::string describedFilter(int filter)
 	const FilterText text = filterText(filter);
 	std::string json = "{\"name\":" + quoted(text.name) +
 					   ",\"python_name\":" + quoted(text.pythonName) +
-					   ",\"info\":" + quoted(text.info) + ",\"parameters\":";
-	char before = '[';
+					   ",\"info\":" + quoted(text.info) + ",\"renamed\":";
+	char before = '{';
+	for (const auto& [old, now] : kRenamed) {
+		json += before + quoted(old) + ":" + quoted(now);
+		before = ',';
+	}
+	json += "},\"parameters\":";
+	before = '[';
 	for (const Parameter& p : filterParameters(filter)) {
 		json += before + described(p);
 		before = ',';

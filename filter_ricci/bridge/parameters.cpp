@@ -4,11 +4,9 @@
 #include "error_sentences.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/charts/pack.h>
 #include <ricci/parametrize.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -20,8 +18,8 @@ namespace filter_ricci {
 namespace {
 
 // A parameter: its name and default, its label, and its choices or its type; then its tooltip, behind tabs. What
-// a first run needs comes first; what few runs need is marked by +. The choices have the order of the enums of the same
-// name in ricci/options.h. A name alone stands for the parameter of the Euclidean filter.
+// a first run needs comes first; what few runs need is marked by +, what is an option in dialogs by -. The choices have the
+// order of the enums of the same name in ricci/options.h. A name alone stands for the parameter of the Euclidean filter.
 
 const char* const kEuclidean = R"(
 target_curvature = Automatic | Target curvature | Automatic; Flat everywhere; Disk; Rectangle; Cones at selected vertices; From vertex quality; Placed cones
@@ -31,54 +29,57 @@ free_boundary = true | Free boundary | bool
 	Let the outline of an open mesh take its natural shape. Ignored by Disk, Rectangle and flat annuli.
 cone_distortion = 0 | Cones: area distortion | float
 	Largest area distortion that cones may leave (0.25: 25 %). 0: area distortion and seam length are balanced.
-seams = Shortest | Seams | Shortest; Existing texture seams; Selected edges; Border of selected faces
-	Cut along the shortest paths only, or first along the existing UV seams, the selected edges or the outline of the
-	selected faces.
-output_triangulation = Keep the mesh | Output triangulation | Keep the mesh; Common refinement
-	<b>Common refinement</b> adds vertices where edges of the solver cross those of the mesh, so that the map is exact on
-	every piece.
-chart_margin = 0 | Chart margin | float
-	Padding between two charts (UV islands) and to the border, as a fraction of the texture size. 0.004: 4 pixels at 1024.
-colorize = false | Colour by distortion | bool
-	Colour the vertices by angle distortion: from blue (none) to red (99th percentile or worse).
-flat_layer = false | Flat mesh as new layer | bool
-	Add a layer with the mesh laid out in the plane, cut along its seams.
-+ holes = Short ones capped | Holes | Boundaries; Capped; Short ones capped
-	Fill holes while solving, so that no seam runs to them: all boundary loops but the longest, or only short ones (0.1
-	√area).
-+ seam_hiding = 0 | Seams: prefer concave areas | float
-	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
-+ cone_count = 0 | Cones: number | int
-	The number of placed cones. 0: 'Cones: area distortion' decides.
-+ cone_rounding = Free | Cones: curvatures | Free; Multiples of pi/2
-	<b>Free</b>: the least area distortion. <b>Multiples of pi/2</b>: a seamless map for quad remeshing, whose seams
-	differ by quarter turns.
-+ method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles; Edge swaps; Thurston
-	What happens when a triangle degenerates during the solve: the solver flips edges (recommended) or swaps them, or the
-	run fails. <b>Thurston</b>: the conventional flow.
-+ finish = Least distortion | Finish | None; Repair; Least distortion; Least stretch
-	After the solve, repair flipped faces; then minimise angle distortion, or <b>stretch</b>, where the two sides of a
-	seam may differ. Needs 'Intrinsic flips'.
+seams = Shortest | Seams | Shortest; Existing texture seams; Selected edges; Border of selected faces; Sharp edges
+	Cut along the shortest paths only, or first along UV seams, selected edges, the outline of selected faces, or edges
+	sharper than 30 degrees (sharp_angle).
+padding = 4 | Padding (px) | int
+	Empty pixels between charts (UV islands) and to the border, for baking: of a texture of 'Texture size' that covers the
+	whole layout.
+texture_size = 2048 | Texture size (px) | int
+	Width and height of the texture, 16 to 16384 pixels. 0: the resolution of the old textures is kept; 2048 if none is
+	transferred.
+carry_texture = | Transfer texture to | PNG image (*.png)
+	Bake the present textures, or else the colours, into this PNG file for the new UVs. Empty: no texture.
+layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
+	Add the mesh laid out in the plane, cut along its seams, or mapped conformally to the unit sphere (closed surfaces of
+	genus 0).
 + charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room; As they are, only packed
 	Leave charts whole, split those that overlap, or with <b>Automatic</b> also for better packing. <b>Only packed</b>: the
 	old islands keep their shape.
 + normalize_uv = true | Fit into the unit square | bool
-	Scale the UVs uniformly into [0,1] x [0,1]. Off: they keep the real size of the mesh.
-+ sphere_layer = false | Sphere as new layer | bool
-	Add a layer with the mesh mapped conformally to the unit sphere. Needs one closed surface of genus 0.
-+ join_vertices = Automatic | Join split vertices | Automatic; Never; Always
-	Treat vertices that coincide along edges as one, as in formats that split them. <b>Automatic</b>: only if faces share
-	almost no vertices.
-+ carry_texture = | Transfer texture to | PNG image (*.png)
-	Bake the present textures, or else the colours, into this PNG file for the new UVs. Empty: no texture.
-+ texture_size = 2048 | Transferred texture size (px) | int
-	Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of the old textures is kept.
-+ report = | Report file | Page and its data (*.html);;Data alone (*.csv)
-	Write a report: a page with diagrams and its data (.html), or the data alone (.csv). Empty: no report.
+	Scale the UVs uniformly into [0,1] x [0,1]. Off: the same charts in the real size of the mesh.
++ holes = Short ones capped | Holes | Boundaries; Capped; Short ones capped
+	Fill holes while solving, so that no seam runs to them: all boundary loops but the longest, or only short ones (0.1
+	√area).
++ output_triangulation = Keep the mesh | Output triangulation | Keep the mesh; Common refinement
+	<b>Common refinement</b> adds vertices where edges of the solver cross those of the mesh, so that the map is exact on
+	every piece.
++ finish = Least distortion | Finish | None; Repair; Least distortion; Least stretch
+	After the solve, repair flipped faces; then minimise angle distortion, or <b>stretch</b>, where the two sides of a
+	seam may differ. Needs 'Intrinsic flips'.
++ method = Intrinsic flips | Method | Intrinsic flips; Fixed triangles; Edge swaps; Thurston
+	What happens when a triangle degenerates during the solve: the solver flips edges (recommended) or swaps them, or the
+	run fails. <b>Thurston</b>: the conventional flow.
 + epsilon = 1e-8 | Epsilon (rad) | float
 	The solve stops when the curvature of every vertex is this close to its target, in radians, or rounding allows no
 	better.
-+ time_limit = 0 | Time limit (seconds) | float
+- cone_count = 0 | Cones: number | int
+	The number of placed cones. 0: 'Cones: area distortion' decides.
+- cone_rounding = Free | Cones: curvatures | Free; Multiples of pi/2
+	<b>Free</b>: the least area distortion. <b>Multiples of pi/2</b>: a seamless map for quad remeshing, whose seams
+	differ by quarter turns.
+- seam_hiding = 0 | Seams: prefer concave areas | float
+	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
+- sharp_angle = 30 | Sharp angle (degrees) | float
+	The seams 'Sharp edges' are those at which the surface bends by more than this.
+- join_vertices = Automatic | Join split vertices | Automatic; Never; Always
+	Treat vertices that coincide along edges as one, as in formats that split them. <b>Automatic</b>: only if faces share
+	almost no vertices.
+- colorize = false | Colour by distortion | bool
+	Colour the vertices by angle distortion: from blue (none) to red (99th percentile or worse).
+- report = | Report file | Page and its data (*.html);;Data alone (*.csv)
+	Write a report: a page with diagrams and its data (.html), or the data alone (.csv). Empty: no report.
+- time_limit = 0 | Time limit (seconds) | float
 	A run that takes longer ends with an error and leaves the mesh unchanged. 0: no limit.
 )";
 
@@ -88,8 +89,8 @@ target_curvature = Hyperbolic metric | Target curvature | Hyperbolic metric; Con
 	surfaces of negative Euler characteristic.
 cone_angle = 180 | Cone angle (degrees) | float
 	The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360: not a cone.
+seams
 output_triangulation
-colorize
 flat_layer = false | Disk as new layer | bool
 	Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
 universal_cover = 0 | Universal cover (rings) | int
@@ -101,7 +102,6 @@ generator_axes = false | Axes of the generators | bool
 canonical_polygon = false | Canonical polygon | bool
 	Add a layer with a fundamental polygon of 4 sides for each handle, as edges. The canonical generators pair its
 	sides, which are geodesics.
-+ seams
 + free_boundary = false | Free boundary | bool
 	The circles at boundary vertices keep their radii, and the target holds at interior vertices only. Off: the target
 	holds everywhere.
@@ -110,12 +110,14 @@ canonical_polygon = false | Canonical polygon | bool
 	fails.
 + finish = Repair | Finish | None; Repair
 	After the solve, repair flipped faces. Needs the method 'Intrinsic flips'.
-+ join_vertices
 + carry_texture
 + texture_size
-+ report
 + epsilon
-+ time_limit
+- sharp_angle
+- join_vertices
+- colorize
+- report
+- time_limit
 )";
 
 /// The parts of a text between separators.
@@ -136,13 +138,6 @@ std::string trimmed(const std::string& text)
 	const std::size_t from = text.find_first_not_of(blanks);
 	return from == std::string::npos ? std::string()
 									 : text.substr(from, text.find_last_not_of(blanks) + 1 - from);
-}
-
-std::string lower(std::string text)
-{
-	for (char& c : text)
-		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-	return text;
 }
 
 /// The whole text as a number, in no locale.
@@ -183,14 +178,17 @@ Parameters parametersOf(const char* table, const Parameters& others)
 			tooltip += (tooltip.empty() ? "" : " ") + line.substr(1);
 			continue;
 		}
-		const bool isAdvanced = line[0] == '+';
-		const std::vector<std::string> fields = split(line.substr(isAdvanced ? 2 : 0), " | ");
+		const Place place = line[0] == '+'   ? Place::Advanced
+							: line[0] == '-' ? Place::Options
+											 : Place::Shown;
+		const std::vector<std::string> fields =
+			split(line.substr(place == Place::Shown ? 0 : 2), " | ");
 		const std::size_t end = fields[0].find(" =");
 		const std::string name = fields[0].substr(0, end);
 		if (fields.size() == 1)
 			list.push_back(*findParameter(others, name));
 		else {
-			Parameter p{name, std::string(), {}, fields[1], "", "", false};
+			Parameter p{name, std::string(), {}, fields[1], "", "", place};
 			const std::string& kind = fields[2];
 			if (kind == "bool")
 				p.value = false;
@@ -207,7 +205,7 @@ Parameters parametersOf(const char* table, const Parameters& others)
 			setFromText(p, trimmed(fields[0].substr(end + 2)));
 			list.push_back(std::move(p));
 		}
-		list.back().isAdvanced = isAdvanced;
+		list.back().place = place;
 	}
 	return list;
 }
@@ -232,27 +230,16 @@ void readChoice(const Parameters& par, const char* id, Enum& value)
 		uses + ".");
 }
 
-double checkedTimeLimit(const Parameters& par)
+/// \throw Refusal unless it is from \p least to \p most, which are \p units
+int checked(const Parameters& par, const char* id, int least, int most, const std::string& units)
 {
-	const double seconds = valueOf<double>(par, "time_limit");
-	if (std::isfinite(seconds) && seconds >= 0.0)
-		return seconds;
-	throw Refusal(
-		"The value " + ricci::numberText(seconds, 6) +
-		" of {time_limit} cannot be used. Use a number of seconds, or 0 for no limit.");
-}
-
-TextureSettings checkedTexture(const Parameters& par)
-{
-	TextureSettings texture;
-	texture.file = trimmed(valueOf<std::string>(par, "carry_texture"));
-	texture.size = valueOf<int>(par, "texture_size");
-	if (texture.size != 0 && (texture.size < kMinTextureSize || texture.size > kMaxTextureSize))
-		throw Refusal(
-			"The value " + std::to_string(texture.size) +
-			" of {texture_size} cannot be used. Use " + std::to_string(kMinTextureSize) + " to " +
-			std::to_string(kMaxTextureSize) + " texels, or 0 for as many as keep the old ones.");
-	return texture;
+	const int value = valueOf<int>(par, id);
+	if (value >= least && value <= most)
+		return value;
+	throw Refusal(unusable(
+		std::to_string(value),
+		id,
+		std::to_string(least) + " to " + std::to_string(most) + " " + units));
 }
 
 RunSettings readRunSettings(const Parameters& par)
@@ -260,23 +247,32 @@ RunSettings readRunSettings(const Parameters& par)
 	RunSettings settings;
 	readChoice(par, "seams", settings.seams);
 	settings.colorize = valueOf<bool>(par, "colorize");
-	settings.flatLayer = valueOf<bool>(par, "flat_layer");
-	settings.timeLimit = checkedTimeLimit(par);
+	settings.timeLimit = valueOf<double>(par, "time_limit");
 	settings.report = trimmed(valueOf<std::string>(par, "report"));
-	settings.texture = checkedTexture(par);
+	settings.texture.file = trimmed(valueOf<std::string>(par, "carry_texture"));
+	settings.texture.size = valueOf<int>(par, "texture_size");
+	if (settings.texture.size != 0)
+		checked(
+			par,
+			"texture_size",
+			kMinTextureSize,
+			kMaxTextureSize,
+			"texels, or 0 for as many as keep the old ones");
 	return settings;
 }
 
-void readFlowOptions(const Parameters& par, ricci::FlowOptions& flow)
+constexpr double kDegree = ricci::kPi / 180.0;
+
+void readFlowOptions(const Parameters& par, Seams seams, ricci::FlowOptions& flow)
 {
+	if (seams == Seams::Sharp)
+		flow.sharpAngle = valueOf<double>(par, "sharp_angle") * kDegree;
 	flow.epsilon = valueOf<double>(par, "epsilon");
 	readChoice(par, "method", flow.method);
 	readChoice(par, "output_triangulation", flow.output);
 	readChoice(par, "finish", flow.finish);
 	readChoice(par, "join_vertices", flow.join);
 }
-
-constexpr double kDegree = ricci::kPi / 180.0;
 
 /// The disk cannot show more rings than this.
 constexpr int kMaxRings = 20;
@@ -288,6 +284,78 @@ const Parameters& filterParameters(int filter)
 	static const Parameters euclidean = parametersOf(kEuclidean, {}),
 							hyperbolic = parametersOf(kHyperbolic, euclidean);
 	return filter == Hyperbolic ? hyperbolic : euclidean;
+}
+
+Parameters dialogParameters(int filter)
+{
+	Parameters list;
+	std::string names;
+	for (const Parameter& p : filterParameters(filter))
+		if (p.place == Place::Options)
+			names += (names.empty() ? "" : ", ") + p.name;
+		else
+			list.push_back(p);
+	list.push_back(
+		{"options",
+		 std::string(),
+		 {},
+		 "Options",
+		 "Rare parameters, such as 'time_limit=60; colorize=true'. There are " + names +
+			 ": see the manual.",
+		 "",
+		 Place::Advanced});
+	return list;
+}
+
+const std::array<std::pair<const char*, const char*>, 3> kRenamed = {
+	{{"chart_margin",
+	  "it is 'padding' now, in pixels of texture_size: 0.004 is 4 at texture_size 1024"},
+	 {"flat_layer", "it is layers='Flat mesh' now"},
+	 {"sphere_layer", "it is layers='Sphere' now, or 'Flat mesh and sphere'"}}};
+
+std::string noSuchParameter(const Parameters& parameters, const std::string& name)
+{
+	std::string here;
+	for (const auto& [old, now] : kRenamed)
+		here = old == name ? now : here;
+	for (const Parameter& p : here.empty() ? parameters : Parameters())
+		here += (here.empty() ? "it is one of '" : ", '") + p.name + "'";
+	return "The filter has no parameter '" + name + "': " + here + ".";
+}
+
+void setOptions(Parameters& parameters, const std::string& text)
+{
+	for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+		bool isQuoted = false;
+		for (end = at; end < text.size() && (isQuoted || text[end] != ';'); ++end)
+			isQuoted = isQuoted != (text[end] == '"');
+		const std::string option = trimmed(text.substr(at, end - at));
+		if (option.empty())
+			continue;
+		const std::size_t equals = option.find('=');
+		const std::string name = trimmed(option.substr(0, equals));
+		Parameter* const p = findParameter(parameters, name);
+		if (p == nullptr)
+			throw Refusal(noSuchParameter(parameters, name));
+		if (p->place != Place::Options)
+			throw Refusal(
+				"{" + name + "} is a parameter of its own: set it there, not as an option.");
+		if (equals == std::string::npos)
+			throw Refusal("{" + name + "} has no value: options are 'name=value; name=value'.");
+		std::string value = trimmed(option.substr(equals + 1));
+		if (value.size() > 1 && value.front() == '"' && value.back() == '"')
+			value = value.substr(1, value.size() - 2);
+		const std::string problem = setFromText(*p, value);
+		if (!problem.empty())
+			throw Refusal(problem);
+	}
+}
+
+std::string lower(std::string text)
+{
+	for (char& c : text)
+		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+	return text;
 }
 
 std::string setFromText(Parameter& p, const std::string& text)
@@ -342,7 +410,10 @@ Settings readSettings(const Parameters& par)
 {
 	Settings settings;
 	static_cast<RunSettings&>(settings) = readRunSettings(par);
-	readFlowOptions(par, settings.flow);
+	readChoice(par, "charts", settings.flow.charts);
+	if (settings.flow.charts == ricci::Charts::AsGiven)
+		settings.seams = Seams::Texture;
+	readFlowOptions(par, settings.seams, settings.flow);
 	readChoice(par, "target_curvature", settings.flow.target);
 	settings.flow.cones.count = valueOf<int>(par, "cone_count");
 	settings.flow.cones.distortion = valueOf<double>(par, "cone_distortion");
@@ -350,17 +421,18 @@ Settings readSettings(const Parameters& par)
 	settings.flow.freeBoundary = valueOf<bool>(par, "free_boundary");
 	settings.flow.seamHiding = valueOf<double>(par, "seam_hiding");
 	settings.flow.normalizeUV = valueOf<bool>(par, "normalize_uv");
-	settings.flow.chartMargin = valueOf<double>(par, "chart_margin");
+	const int texels = settings.texture.size > 0 ? settings.texture.size : kMaxTextureSize;
+	const int most = static_cast<int>(ricci::kMaxChartMargin * texels);
+	settings.padding = checked(par, "padding", 0, most, "pixels, a quarter of {texture_size}");
 	readChoice(par, "holes", settings.flow.holes);
-	readChoice(par, "charts", settings.flow.charts);
-	if (settings.flow.charts == ricci::Charts::AsGiven)
-		settings.seams = Seams::Texture;
-	settings.sphereLayer = valueOf<bool>(par, "sphere_layer");
+	int layers = 0;
+	readChoice(par, "layers", layers);
+	settings.flatLayer = layers % 2 == 1;
+	settings.sphereLayer = layers / 2 == 1;
 	if (!settings.texture.file.empty() && !settings.flow.normalizeUV)
 		throw Refusal("{carry_texture} draws on the unit square: choose {normalize_uv}, or leave "
 					  "{carry_texture} empty.");
 	ricci::checkOptions(settings.flow);
-	ricci::checkChartMargin(settings.flow.chartMargin);
 	return settings;
 }
 
@@ -368,16 +440,12 @@ HyperbolicSettings readHyperbolicSettings(const Parameters& par)
 {
 	HyperbolicSettings settings;
 	static_cast<RunSettings&>(settings) = readRunSettings(par);
-	readFlowOptions(par, settings.flow);
+	readFlowOptions(par, settings.seams, settings.flow);
 	readChoice(par, "target_curvature", settings.flow.target);
+	settings.flatLayer = valueOf<bool>(par, "flat_layer");
 	settings.flow.coneAngle = valueOf<double>(par, "cone_angle") * kDegree;
 	settings.flow.freeBoundary = valueOf<bool>(par, "free_boundary");
-	settings.coverRings = valueOf<int>(par, "universal_cover");
-	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
-		throw Refusal(
-			"The value " + std::to_string(settings.coverRings) +
-			" of {universal_cover} cannot be used. Use 0 to " + std::to_string(kMaxRings) +
-			" rings.");
+	settings.coverRings = checked(par, "universal_cover", 0, kMaxRings, "rings");
 	settings.axes = valueOf<bool>(par, "generator_axes");
 	settings.canonicalPolygon = valueOf<bool>(par, "canonical_polygon");
 	settings.flow.canonicalGenerators = settings.axes || settings.canonicalPolygon;

@@ -8,12 +8,20 @@
 
 #include <ricci/options.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace filter_ricci {
+
+/// Where a dialog has a parameter. Python, C and the command line have all by their names.
+enum class Place {
+	Shown,
+	Advanced, ///< few runs need it
+	Options   ///< within the text "options"
+};
 
 /// A parameter as it is shown, and its value.
 struct Parameter
@@ -26,7 +34,7 @@ struct Parameter
 	std::vector<std::string> choices; ///< empty: it is none
 	std::string label, tooltip;       ///< the tooltip in HTML
 	std::string files;                ///< of a file to be written: the pattern of a dialog
-	bool isAdvanced = false;          ///< few runs need it
+	Place place = Place::Shown;
 };
 
 /// In the order of the dialog.
@@ -35,10 +43,27 @@ using Parameters = std::vector<Parameter>;
 /// Those of a filter, with their defaults.
 const Parameters& filterParameters(int filter);
 
+/// The same as hosts with a dialog have them: those of Place::Options are one text, "options".
+Parameters dialogParameters(int filter);
+
+/// Gives parameters of Place::Options the values in a text "name=value; name=value"; a value in double quotes may hold
+/// semicolons.
+/// \throw Refusal
+void setOptions(Parameters& parameters, const std::string& text);
+
+/// Names that parameters had before version 3, and what is said of them.
+extern const std::array<std::pair<const char*, const char*>, 3> kRenamed;
+
+/// The sentence that refuses a name which none of the \p parameters has.
+std::string noSuchParameter(const Parameters& parameters, const std::string& name);
+
 /// Gives a parameter the value that a text names: a choice by its name, in any case, or its number; true, false, 1 or
 /// 0; a number in no locale, also nan and inf; a path.
 /// \return the sentence that refuses another text; empty if there is nothing to refuse
 std::string setFromText(Parameter& parameter, const std::string& text);
+
+/// A to Z in lower case.
+std::string lower(std::string text);
 
 /// The parameter of that name; null if there is none.
 const Parameter* findParameter(const Parameters& parameters, const std::string& name);
@@ -59,7 +84,8 @@ enum class Seams {
 	Shortest,      ///< nowhere: only along what the flow needs
 	Texture,       ///< where the texture coordinates that the mesh has jump
 	SelectedEdges, ///< sides of faces
-	SelectedFaces  ///< around them
+	SelectedFaces, ///< around them
+	Sharp          ///< edges sharper than an angle
 };
 
 /// Texels.
@@ -84,7 +110,8 @@ struct RunSettings
 
 struct Settings : RunSettings
 {
-	ricci::Options flow;
+	ricci::Options flow; ///< without its margin: padding
+	int padding = 0;     ///< texels
 	bool sphereLayer = false;
 };
 
@@ -98,8 +125,7 @@ struct HyperbolicSettings : RunSettings
 
 /// Reads the parameters and checks them all. Scripts can hold any number for a choice, and no host
 /// checks the range of a number.
-/// \throw Refusal for what the algorithm does not know (choices, time limit, rings), and
-/// ricci::InvalidOption
+/// \throw Refusal for what the algorithm does not know (choices, pixels, rings), and ricci::InvalidOption
 Settings readSettings(const Parameters& par);
 HyperbolicSettings readHyperbolicSettings(const Parameters& par);
 

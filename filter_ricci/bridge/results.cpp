@@ -237,6 +237,12 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 					 : "{texture_size} 0 keeps their resolution."));
 	if (filter == Hyperbolic)
 		return lines; // a hyperbolic metric has areas of its own
+	const double padding = resultOf<double>(results, "padding_pixels");
+	if (padding < 0.999 * valueOf<int>(par, "padding"))
+		lines.push_back(
+			"There are too many charts for {padding} " +
+			std::to_string(valueOf<int>(par, "padding")) + ": they are " +
+			ricci::numberText(padding, 2) + " pixels apart. Raise {texture_size}.");
 	const bool isAutomatic = is("target_curvature", 0);
 	const double areas = resultOf<double>(results, "area_distortion_mean");
 	const double occupancy = resultOf<double>(results, "occupancy");
@@ -278,10 +284,17 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		if (hasNoEffect && isSet(id))
 			lines.push_back("{" + std::string(id) + "} has no effect: " + why);
 	};
+	if (valueOf<std::string>(par, "carry_texture").empty()) {
+		const bool isPadded = filter == Euclidean && valueOf<int>(par, "padding") > 0;
+		tell("texture_size", !isPadded, "{carry_texture} is empty.");
+		tell("texture_size", isPadded && is("texture_size", 0), "{padding} is of 2048 pixels.");
+	}
+	const bool cutsSharp = is("seams", static_cast<int>(Seams::Sharp));
+	tell("sharp_angle", !cutsSharp, "only the seams 'Sharp edges' read it.");
 	tell(
-		"texture_size",
-		valueOf<std::string>(par, "carry_texture").empty(),
-		"{carry_texture} is empty.");
+		"seams",
+		cutsSharp && resultOf<int>(results, "chosen_seam_edges") == 0,
+		"no edge is sharper than {sharp_angle}.");
 	tell(
 		"finish",
 		!is("method", static_cast<int>(ricci::Method::IntrinsicFlips)),
@@ -292,6 +305,16 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 			"cone_angle",
 			!is("target_curvature", static_cast<int>(ricci::HyperbolicTarget::SelectedCones)),
 			"only 'Cones at selected vertices' reads it.");
+		return lines;
+	}
+	if (is("charts", static_cast<int>(ricci::Charts::AsGiven))) {
+		const std::string ofFlow =
+			" target_curvature cone_distortion cone_count cone_rounding seam_hiding holes "
+			"output_triangulation finish method ";
+		const std::string why = "the charts stay as they are.";
+		for (const Parameter& p : par)
+			tell(p.name.c_str(), ofFlow.find(" " + p.name + " ") != std::string::npos, why);
+		tell("seams", !is("seams", static_cast<int>(Seams::Texture)), why);
 		return lines;
 	}
 	const bool placesCones =

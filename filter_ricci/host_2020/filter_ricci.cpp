@@ -9,8 +9,6 @@
 #include <QStringList>
 #include <QTimer>
 
-#include <algorithm>
-
 namespace {
 
 /// Characters in a line of the dialog's help.
@@ -72,11 +70,11 @@ void showInTwoColumns(const QString& filter)
 						item->alignment());
 				}
 		list->widget()->setMinimumSize(rows->sizeHint());
-		// The filter's text is higher where it is broken into lines, which the hint does not know.
-		QSize size = dialog->widget()->sizeHint();
-		size.setHeight(std::max(size.height(), whole->totalHeightForWidth(size.width())));
-		dialog->widget()->setMinimumSize(size);
-		widget->setMinimumSize(size);
+		// The filter's text is higher where it is broken into lines, which the hint does not know. Nothing above it has a
+		// size of its own: help makes it larger.
+		QWidget* const text = whole->itemAtPosition(0, 0)->widget();
+		text->setMinimumHeight(text->heightForWidth(rows->sizeHint().width()));
+		widget->setMinimumSize(dialog->widget()->sizeHint());
 		widget->adjustSize();
 	}
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshlab.h"
 
+#include "error_sentences.h"
+
 #include <QStringList>
 
 #include <algorithm>
@@ -23,7 +25,7 @@ void add(RichParameterList& list, const Parameter& p, const Arguments&... argume
 {
 	const QString name = QString::fromStdString(p.name), label = QString::fromStdString(p.label),
 				  tooltip = QString::fromStdString(p.tooltip);
-	if (p.isAdvanced)
+	if (p.place == Place::Advanced)
 		list.addParam(host::advanced<Rich>(name, arguments..., label, tooltip));
 	else
 		list.addParam(Rich(name, arguments..., label, tooltip));
@@ -34,7 +36,7 @@ void add(RichParameterList& list, const Parameter& p, const Arguments&... argume
 RichParameterList richParameters(int filter)
 {
 	RichParameterList list;
-	for (const Parameter& p : filterParameters(filter)) {
+	for (const Parameter& p : dialogParameters(filter)) {
 		if (const bool* const isOn = std::get_if<bool>(&p.value))
 			add<RichBool>(list, p, *isOn);
 		else if (const double* const number = std::get_if<double>(&p.value))
@@ -48,6 +50,8 @@ RichParameterList richParameters(int filter)
 			else
 				add<RichEnum>(list, p, *whole, choices);
 		}
+		else if (p.files.empty())
+			add<RichString>(list, p, QString());
 		else
 			add<host::FileToSave>(list, p, QString(), QString::fromStdString(p.files));
 	}
@@ -57,6 +61,9 @@ RichParameterList richParameters(int filter)
 Parameters fromRich(int filter, const RichParameterList& par)
 {
 	Parameters parameters = filterParameters(filter);
+	for (const auto& [old, now] : kRenamed)
+		if (par.hasParameter(old) && findParameter(parameters, old) == nullptr)
+			throw Refusal(noSuchParameter(parameters, old));
 	for (Parameter& p : parameters) {
 		const QString name = QString::fromStdString(p.name);
 		const bool isGiven = par.hasParameter(name);
@@ -73,6 +80,8 @@ Parameters fromRich(int filter, const RichParameterList& par)
 		else
 			p.value = host::text(par, name).toStdString();
 	}
+	if (par.hasParameter("options"))
+		setOptions(parameters, par.getString("options").toStdString());
 	return parameters;
 }
 

@@ -36,7 +36,7 @@ int main(void)
 	}
 	if (ricci_set_array(run, "vertices", &vertices) != RICCI_OK ||
 		ricci_set_array(run, "faces", &faces) != RICCI_OK ||
-		ricci_set_parameter(run, "chart_margin", "0.004") != RICCI_OK ||
+		ricci_set_parameter(run, "padding", "8") != RICCI_OK ||
 		ricci_set_listener(run, show, &lines) != RICCI_OK || ricci_execute(run) != RICCI_OK ||
 		ricci_output(run, "uv", &uv) != RICCI_OK ||
 		ricci_output(run, "results.charts", &charts) != RICCI_OK ||

@@ -92,8 +92,9 @@ RICCI_API const char* ricci_library_version(void);
 RICCI_API const char* ricci_solver(void);
 
 /* Both filters in JSON, a list of objects:
- *     name, python_name, info (HTML), and parameters, a list of objects in the order of the dialogs:
- *         name, label, tooltip (HTML), advanced (true or false), default, and
+ *     name, python_name, info (HTML); renamed, an object: old names of parameters, and what is in their place; and
+ *     parameters, a list of objects in the order of the dialogs:
+ *         name, label, tooltip (HTML), place in MeshLab's dialog (shown, advanced or options), default, and
  *         type: "enum" (with choices, a list; default is one of them), "bool", "int", "float" or "file" (a path,
  *             with files, the pattern of a file dialog; default "").
  * Lives as long as the library. Null if there was no memory for it. */

@@ -131,13 +131,6 @@ unsigned char colour(double value)
 	return static_cast<unsigned char>(std::clamp(std::round(value), 0.0, 255.0));
 }
 
-std::string lower(std::string text)
-{
-	for (char& c : text)
-		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-	return text;
-}
-
 class Listener : public ricci::Progress
 {
 public:
@@ -319,8 +312,7 @@ void LibraryRun::setParameter(const std::string& name, const std::string& value)
 {
 	Parameter* const parameter = findParameter(m_parameters, name);
 	if (parameter == nullptr)
-		throw Misuse(
-			"The filter has no parameter '" + name + "': ricci_description() names those it has.");
+		throw Misuse(noSuchParameter(m_parameters, name));
 	const std::string problem = setFromText(*parameter, value);
 	if (!problem.empty())
 		throw Misuse(problem);

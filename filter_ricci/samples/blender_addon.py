@@ -81,9 +81,9 @@ class UnwrapRicciFlow(bpy.types.Operator):
     bl_label = "Unwrap (Ricci flow)"
     bl_options = {"REGISTER", "UNDO"}
 
-    margin: bpy.props.FloatProperty(
-        name="Margin", description="Padding around each chart, as a fraction of the texture size",
-        default=0.004, min=0.0, max=0.1, precision=4)
+    padding: bpy.props.IntProperty(
+        name="Padding", description="Empty pixels between charts, of a texture of 2048 pixels",
+        default=4, min=0, max=512)
     seam_hiding: bpy.props.FloatProperty(
         name="Hide seams", description="How much rather seams that are added run through hollows",
         default=0.0, min=0.0, max=1.0)
@@ -115,7 +115,7 @@ class UnwrapRicciFlow(bpy.types.Operator):
         try:
             result = ricciflow.flatten(
                 joined("points"), joined("corners"), diagonals=joined("diagonals"),
-                selected_edges=seams if seams.any() else None, chart_margin=self.margin,
+                selected_edges=seams if seams.any() else None, padding=self.padding,
                 seam_hiding=self.seam_hiding, progress=lambda done, _: manager.progress_update(done))
         except (ricciflow.Refused, ValueError) as problem:
             self.report({"ERROR"}, str(problem))

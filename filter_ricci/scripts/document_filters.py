@@ -21,6 +21,8 @@ PACKAGE = os.path.join(os.path.dirname(HERE), "python", "ricciflow")
 LICENCE = "# SPDX-License-Identifier: GPL-3.0-or-later\n"
 MADE = "# Made by document_filters.py.\n"
 PYTHON_WIDTH = 96
+PLACES = {"shown": "**Parameters:**", "advanced": "**Advanced parameters:**",
+          "options": "**Options** (in MeshLab one text, `options`, such as `time_limit=60; colorize=true`):"}
 
 
 def wrapped(text, indent="", first=None, width=PYTHON_WIDTH):
@@ -48,12 +50,12 @@ def paragraphs(info):
 
 
 def words(parameter):
-    """What a list says of a parameter; which of the two lists of a dialog it is in does not matter."""
-    return {key: value for key, value in parameter.items() if key != "advanced"}
+    """What a list says of a parameter; where a dialog has it does not matter."""
+    return {key: value for key, value in parameter.items() if key != "place"}
 
 
-def item(parameter, said):
-    """A parameter of the list. What the list of the other filter has said is not said again."""
+def item(parameter):
+    """A parameter of the list."""
     name, default = parameter["name"], parameter["default"]
     if parameter["type"] == "enum":
         number = parameter["choices"].index(default)
@@ -64,8 +66,6 @@ def item(parameter, said):
         kind = {"bool": "bool", "int": "int", "float": "float", "file": "str"}[parameter["type"]]
         kind += f" = {default!r}" if not isinstance(default, float) else f" = {default:g}"
         values = ""
-    if words(parameter) in said:
-        return f"- **`{name} : {kind}`**: as in the Euclidean filter."
     return f"- **`{name} : {kind}`**<br>{values} *{parameter['label']}*: {markdown(parameter['tooltip'])}"
 
 
@@ -73,9 +73,11 @@ def page(description, said=()):
     """The filter as PyMeshLab's documentation would show it, without what has been said before."""
     parts = [f"### {description['python_name']}", f"*MeshLab filter name*: '{description['name']}'"]
     parts += [text for text in paragraphs(description["info"]) if text not in said]
-    shown, hidden = ("\n".join(item(p, said) for p in description["parameters"]
-                               if p["advanced"] is advanced) for advanced in (False, True))
-    parts += ["**Parameters:**", shown, "**Advanced parameters:**", hidden]
+    for place, title in PLACES.items():
+        here = [p for p in description["parameters"] if p["place"] == place]
+        lines = [item(p) for p in here if words(p) not in said]
+        same = ", ".join(f"**`{p['name']}`**" for p in here if words(p) in said)
+        parts += [title, "\n".join(lines + [f"- {same}: as in the Euclidean filter."] * bool(same))]
     return "\n\n".join(parts)
 
 

@@ -112,12 +112,12 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::MemoryLimit, {"-17"}},
 		{InvalidOption::BoxPlaces, {"-17", "61"}},
 		{InvalidOption::Epsilon, {"-17"}},
+		{InvalidOption::SharpAngle, {"-974.0"}},
 		{InvalidOption::ConeCount, {"-17"}},
 		{InvalidOption::ConeDistortion, {"-17"}},
 		{InvalidOption::SeamHiding, {"-17"}},
 		{InvalidOption::ChartMargin, {"-17", "23"}},
 		{InvalidOption::ConeAngle, {"-974.0"}},
-		{InvalidOption::ChartMarginTooWide, {"-17", "61"}},
 		{InvalidOption::TooFewCones, {"-17", "23"}},
 		{InvalidOption::TooFewVertices, {"-17", "61"}},
 		{InvalidOption::CoverTooLarge, {"-17", "61"}},
@@ -249,12 +249,10 @@ TEST(Sentences, AreTheseWords)
 		 "example 0.25."},
 		{option(InvalidOption::SeamHiding, double(1.1f)),
 		 "The value 1.1 of {seam_hiding} cannot be used. Use a number from 0 to 1."},
-		{option(InvalidOption::ChartMargin, double(0.3f), 0.25),
-		 "The value 0.3 of {chart_margin} cannot be used. Use a number from 0 to 0.25."},
+		{option(InvalidOption::SharpAngle, -5.0 * (kPi / 180.0)),
+		 "The value -5 of {sharp_angle} cannot be used. Use degrees above 0, at most 180."},
 		{option(InvalidOption::ConeAngle, -5.0 * (kPi / 180.0)),
 		 "{cone_angle} must be greater than 0 degrees, not -5."},
-		{sentence(InvalidOption(InvalidOption::ChartMarginTooWide, 0.25, 0.0, 30)),
-		 "{chart_margin} 0.250000 leaves no room for 30 charts: choose a smaller one."},
 		{sentence(InvalidOption(InvalidOption::CoverTooLarge, 9.0, 0.0, 5000000)),
 		 "{universal_cover}: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
 		 "simplify the mesh."},
@@ -381,7 +379,7 @@ TEST(Sentences, AreTheSameInAHostWithDecimalCommas)
 	const auto all = [] {
 		return sentence(InvalidOption(InvalidOption::Epsilon, -0.5)) +
 			   sentence(InvalidOption(InvalidOption::ConeAngle, -0.5)) +
-			   sentence(InvalidOption(InvalidOption::ChartMarginTooWide, 0.25, 0.0, 30)) +
+			   sentence(InvalidOption(InvalidOption::ConeDistortion, -0.25)) +
 			   sentence(InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, 0.96, -12.5)) +
 			   sentence(NotConverged(2, 0.01234, 1e-8, 3e-14)) +
 			   sentence(TooLarge(TooLarge::Memory, 5000000, 6.6e9, 2.5e9)) +

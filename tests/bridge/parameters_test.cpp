@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -28,7 +30,9 @@ TEST(Parameters, HaveTheDefaultsOfTheAlgorithm)
 	EXPECT_EQ(plane.flow.output, options.output);
 	EXPECT_EQ(plane.flow.finish, options.finish);
 	EXPECT_EQ(plane.flow.normalizeUV, options.normalizeUV);
-	EXPECT_EQ(plane.flow.chartMargin, options.chartMargin);
+	EXPECT_EQ(plane.flow.chartMargin, 0.0); // it depends on the texture
+	EXPECT_EQ(plane.padding, 4);
+	EXPECT_EQ(plane.flow.sharpAngle, options.sharpAngle);
 	EXPECT_EQ(plane.flow.seamHiding, options.seamHiding);
 	EXPECT_EQ(plane.flow.holes, options.holes);
 	EXPECT_EQ(plane.flow.charts, options.charts);
@@ -69,7 +73,6 @@ TEST(Parameters, AreReadFromTheirTable)
 		}
 	EXPECT_EQ(findParameter(filterParameters(Euclidean), "cone_angle"), nullptr);
 	const Parameter& seams = *findParameter(filterParameters(Hyperbolic), "seams");
-	EXPECT_TRUE(seams.isAdvanced);
 	EXPECT_EQ(seams.choices, findParameter(filterParameters(Euclidean), "seams")->choices);
 }
 
@@ -95,7 +98,7 @@ TEST(Parameters, TakeTexts)
 	EXPECT_EQ(read("colorize", "True"), expected[3]);
 	EXPECT_EQ(read("colorize", "0"), expected[4]);
 	EXPECT_EQ(read("cone_count", "12"), expected[5]);
-	EXPECT_EQ(read("chart_margin", "1.25e-1"), expected[6]);
+	EXPECT_EQ(read("cone_distortion", "1.25e-1"), expected[6]);
 	EXPECT_EQ(read("report", " a "), expected[7]);
 	EXPECT_TRUE(std::isnan(std::get<double>(read("epsilon", "NaN").second)));
 	EXPECT_EQ(std::get<double>(read("epsilon", "-inf").second), -ricci::kInfinity);
@@ -104,12 +107,87 @@ TEST(Parameters, TakeTexts)
 		  std::pair("colorize", "2"),
 		  std::pair("cone_count", "1.0"),
 		  std::pair("cone_count", ""),
-		  std::pair("chart_margin", "0,1"),
-		  std::pair("chart_margin", "1 2")}) {
+		  std::pair("cone_distortion", "0,1"),
+		  std::pair("cone_distortion", "1 2")}) {
 		const std::string sentence = read(name, text).first;
 		EXPECT_EQ(sentence.rfind("{" + std::string(name) + "} must be ", 0), 0u) << sentence;
 		EXPECT_NE(sentence.find(", not '" + std::string(text) + "'."), std::string::npos);
 	}
+}
+
+/// What a call refuses, as a sentence.
+template<class Call>
+std::string refusal(const Call& call)
+{
+	try {
+		call();
+	}
+	catch (const Refusal& e) {
+		return e.what();
+	}
+	return "";
+}
+
+/// Dialogs have at most 16 parameters. Each of the table is one of them or named by the last one, and can be set so.
+TEST(Parameters, AreFewInDialogs)
+{
+	for (const int filter : {Euclidean, Hyperbolic}) {
+		const Parameters dialog = dialogParameters(filter);
+		EXPECT_LE(dialog.size(), 16u);
+		EXPECT_EQ(dialog.back().name, "options");
+		for (const Parameter& p : filterParameters(filter)) {
+			const bool isOption = p.place == Place::Options;
+			EXPECT_EQ(findParameter(dialog, p.name) == nullptr, isOption);
+			EXPECT_EQ(dialog.back().tooltip.find(" " + p.name) != std::string::npos, isOption);
+			for (const std::string& text : {p.tooltip, dialog.back().tooltip}) {
+				std::istringstream words(text);
+				const std::istream_iterator<std::string> begin(words), end;
+				EXPECT_LE(std::distance(begin, end), 25) << text;
+			}
+		}
+	}
+}
+
+TEST(Parameters, AreReadFromOptions)
+{
+	Parameters parameters = filterParameters(Euclidean);
+	setOptions(
+		parameters, " cone_count = 3;; report=\"a; b=1.html\";cone_rounding=multiples of PI/2; ");
+	setOptions(parameters, "");
+	EXPECT_EQ(valueOf<int>(parameters, "cone_count"), 3);
+	EXPECT_EQ(valueOf<int>(parameters, "cone_rounding"), 1);
+	EXPECT_EQ(valueOf<std::string>(parameters, "report"), "a; b=1.html");
+	for (const auto& [text, sentence] :
+		 {std::pair("cone_count=many", "{cone_count} must be a whole number, not 'many'."),
+		  std::pair("report=a.html;b", "The filter has no parameter 'b': it is one of"),
+		  std::pair("Cone_count=3", "The filter has no parameter 'Cone_count': it is one of"),
+		  std::pair("flat_layer=true", "'flat_layer': it is layers='Flat mesh' now."),
+		  std::pair("time_limit", "{time_limit} has no value: "),
+		  std::pair("padding=4", "{padding} is a parameter of its own")}) {
+		const std::string found = refusal([&text = text] {
+			Parameters other = filterParameters(Euclidean);
+			setOptions(other, text);
+		});
+		EXPECT_NE(found.find(sentence), std::string::npos) << found;
+	}
+}
+
+/// A quarter of the texture at most.
+TEST(Parameters, PaddingFitsIntoTheTexture)
+{
+	const auto read = [](int padding, int size) {
+		Parameters parameters = filterParameters(Euclidean);
+		findParameter(parameters, "padding")->value = padding;
+		findParameter(parameters, "texture_size")->value = size;
+		return refusal([&] { readSettings(parameters); });
+	};
+	EXPECT_EQ(read(512, 2048) + read(4, 16) + read(0, 0) + read(4096, 0), "");
+	for (const auto& [padding, size] :
+		 {std::pair(513, 2048), std::pair(-1, 2048), std::pair(5, 16)})
+		EXPECT_EQ(
+			read(padding, size),
+			"The value " + std::to_string(padding) + " of {padding} cannot be used. Use 0 to " +
+				std::to_string(size / 4) + " pixels, a quarter of {texture_size}.");
 }
 
 } // namespace

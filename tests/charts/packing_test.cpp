@@ -191,7 +191,7 @@ TEST(Packing, KeepsTheMarginBetweenOutlinesInTheUnitSquare)
 		}
 }
 
-/// Boxes are placed by the caller where he wants to; the scale stays, and nothing is turned.
+/// Boxes are placed by the caller where he wants to, in a square from the origin; the scale stays, and nothing is turned.
 TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
 {
 	Random random(371);
@@ -201,6 +201,7 @@ TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
 			sizes.push_back({random.real(0.1, 4.0), random.real(0.1, 4.0)});
 		const SurfaceMesh mesh = boxes(sizes);
 		Options options = packing(0.05, false);
+		options.turns = ChartTurns::None;
 		std::vector<Box2> placed;
 		double between = -1.0;
 		options.placeBoxes = [&](const std::vector<Box2>& given, double padding) {
@@ -217,10 +218,11 @@ TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
 		};
 		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
 		EXPECT_NEAR(expectPacked(mesh, map, at(n)), 1.0, 1e-12);
-		if (n == 1) { // stays where it is
-			EXPECT_NEAR(map.charts[0].box.min[0] + map.charts[0].box.min[1], 0.0, 1e-12);
-			continue;
-		}
+		Box2 whole;
+		for (const Chart& chart : map.charts)
+			whole.add(chart.box.min), whole.add(chart.box.max);
+		for (const double x : whole.min)
+			EXPECT_NEAR(x / (whole.extent() + 2.0 * x), 0.05, 1e-6);
 		ASSERT_EQ(placed.size(), at(n));
 		EXPECT_GT(between, 0.0);
 		const Point2 offset = map.charts[0].box.min - placed[0].min;
@@ -258,22 +260,32 @@ TEST(Packing, PutsManySmallChartsIntoOneBox)
 	EXPECT_GT(map.report.occupancy, 0.4);
 }
 
-TEST(Packing, RefusesMarginsThatLeaveNoRoomAndWhatFloatsCannotHold)
+/// In squares of seven columns there are eight margins, which leave room for charts where all are less than 1.
+TEST(Packing, HalvesMarginsThatLeaveNoRoom)
 {
 	const SurfaceMesh mesh = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
-	const auto refusal = [&](double margin, InvalidOption::Problem problem) {
-		Options options = packing(margin);
+	for (const auto& [asked, margin] :
+		 {std::pair(0.25, 0.0625), std::pair(0.13, 0.065), std::pair(0.1, 0.1)}) {
+		Options options = packing(asked);
 		options.placeBoxes = nullptr;
-		return refusalFor<InvalidOption>(
-			problem, {}, [&] { parametrizeEuclidean(mesh, {}, options); });
-	};
-	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()})
-		EXPECT_EQ(refusal(margin, InvalidOption::ChartMargin).bound, kMaxChartMargin);
-	for (double margin : {0.25, 0.13}) { // by area alone, and in seven columns
-		const auto error = refusal(margin, InvalidOption::ChartMarginTooWide);
-		EXPECT_EQ(error.value, margin);
-		EXPECT_EQ(error.count, 40u);
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		EXPECT_EQ(map.report.margin, margin);
+		EXPECT_GE(leastDistance(map), margin - 1e-7);
+		EXPECT_EQ(map.report.charts, 40);
 	}
+}
+
+TEST(Packing, RefusesMarginsOutOfRangeAndWhatFloatsCannotHold)
+{
+	const SurfaceMesh mesh = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
+	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()})
+		EXPECT_EQ(
+			refusalFor<InvalidOption>(
+				InvalidOption::ChartMargin,
+				{},
+				[&] { parametrizeEuclidean(mesh, {}, packing(margin)); })
+				.bound,
+			kMaxChartMargin);
 	for (const double size : {1e39, 1e-39}) { // in their own scale only
 		const SurfaceMesh box = rectangle(2, 2, size, 0.5 * size);
 		refusalFor<InvalidMesh>(InvalidMesh::BeyondFloats, {}, [&] {
@@ -283,9 +295,9 @@ TEST(Packing, RefusesMarginsThatLeaveNoRoomAndWhatFloatsCannotHold)
 	}
 }
 
-Parametrization cutForPacking(const SurfaceMesh& mesh, double margin)
+Parametrization cutForPacking(const SurfaceMesh& mesh, double margin, bool normalize = true)
 {
-	Options options = packing(margin);
+	Options options = packing(margin, normalize);
 	options.charts = Charts::CutForPacking;
 	return parametrizeEuclidean(mesh, {}, options);
 }
@@ -325,13 +337,53 @@ TEST(Packing, CutsChartsForPackingWhereThatWins)
 	}
 }
 
+/// In the mesh's own size there are the same charts with the same seams, in the same square: of several all is larger by
+/// one factor, and a single one is only turned.
+TEST(Packing, KeepsTheChartsInTheSizeOfTheMesh)
+{
+	Random random(59);
+	const std::vector<std::pair<SurfaceMesh, bool>> cases{
+		{rectangle(20, 2, 20, 2), true},
+		{rectangle(8, 8, 8, 8), false},
+		{together({rectangle(20, 2, 20, 2), rectangle(5, 5, 3, 3)}), true},
+		{stars(1, 0.0, random), false}};
+	for (const auto& [mesh, isCut] : cases)
+		for (const double margin : {0.0, 0.02}) {
+			const Parametrization square = cutForPacking(mesh, margin);
+			const Parametrization own = cutForPacking(mesh, margin, false);
+			EXPECT_EQ(square.report.charts > square.report.components, isCut);
+			EXPECT_EQ(own.mesh.chart, square.mesh.chart);
+			EXPECT_EQ(own.mesh.points, square.mesh.points);
+			EXPECT_EQ(own.report.overlapCuts, square.report.overlapCuts);
+			EXPECT_EQ(own.report.seamLength, square.report.seamLength);
+			EXPECT_EQ(own.report.margin, margin);
+			double area = 0.0, covered = 0.0;
+			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+				area += areaOf(mesh, f);
+			for (const Triangle2& t : square.mesh.corners())
+				covered += 0.5 * std::abs(doubledArea(t));
+			const double scale = std::sqrt(area / covered), side = own.mesh.box().extent();
+			for (const int f : own.mesh.points.indices())
+				for (std::size_t k = 0; k < 3; ++k) {
+					const Triangle2 &a = own.mesh.at(f), &b = square.mesh.at(f);
+					EXPECT_NEAR(
+						distance(a[k], a[(k + 1) % 3]),
+						scale * distance(b[k], b[(k + 1) % 3]),
+						1e-6 * side);
+					if (own.charts.size() > 1) {
+						EXPECT_LT(distance(a[k], scale * b[k]), 1e-6 * side);
+					}
+				}
+		}
+}
+
 /// Slivers lower than two thirds of a step of a float where the caller puts their boxes, which end between two floats:
 /// none is flipped there.
 TEST(Packing, MendsSliversThatAreChartsOfTheirOwn)
 {
 	int flipped = 0;
 	for (const double begin : {8.01, 8.02, 8.03, 8.04}) {
-		std::vector<SurfaceMesh> pieces{rectangle(1, 1, 1.0, 1.0)};
+		std::vector<SurfaceMesh> pieces{rectangle(1, 1, begin, begin)};
 		for (int i = 0; i < 7; ++i) {
 			const double width = 1e-4 + 1e-5 * i;
 			pieces.push_back(
@@ -339,12 +391,14 @@ TEST(Packing, MendsSliversThatAreChartsOfTheirOwn)
 		}
 		const SurfaceMesh mesh = together(pieces);
 		Options options = packing(0.0, false);
+		options.turns = ChartTurns::None;
 		options.placeBoxes = [&](const std::vector<Box2>& boxes, double) {
 			std::vector<Point2> shifts;
-			double x = begin;
-			for (const Box2& box : boxes) { // in one row
-				shifts.push_back({x - box.min[0], begin - box.min[1]});
+			double x = 0.0, y = 0.0;
+			for (const Box2& box : boxes) { // in one row beside the top of the first
+				shifts.push_back({x - box.min[0], y - box.min[1]});
 				x += box.width();
+				y = begin;
 			}
 			return shifts;
 		};

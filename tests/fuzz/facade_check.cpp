@@ -96,7 +96,7 @@ struct Reading
 	std::vector<char> isDegenerate; // [VCG face]
 
 	template<class Mesh>
-	Reading(const Mesh& m, const SideMarks& seams, OneSidedCut cut) :
+	Reading(const Mesh& m, const SideMarks& seams, OneSidedCut cut, double sharpAngle) :
 			wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
 	{
 		mesh = fromVcg(m);
@@ -111,7 +111,7 @@ struct Reading
 					mesh.seam.push_back(seams[f]);
 			}
 		std::vector<std::string> notes;
-		opened = openMesh(mesh, notes, cut, FlowOptions().join);
+		opened = openMesh(mesh, notes, cut, FlowOptions().join, sharpAngle);
 		for (std::size_t f = 0; f < opened.face.size(); ++f)
 			wanted[inVcg(opened.face[f])] = opened.reversed[Face(f)] ? -1 : 1;
 		for (const int f : opened.degenerate)
@@ -515,7 +515,10 @@ Execution run(const HostileMesh& hostile)
 		result.report,
 		hostile.hyperbolic ? hostile.hyperbolicOptions.epsilon : hostile.options.epsilon);
 	const Reading reading(
-		m, seams, hostile.hyperbolic ? OneSidedCut::ClearOfBoundary : OneSidedCut::Shortest);
+		m,
+		seams,
+		hostile.hyperbolic ? OneSidedCut::ClearOfBoundary : OneSidedCut::Shortest,
+		hostile.options.sharpAngle);
 	if (execution.defect.empty())
 		execution.defect = contradictionOf(result.report, reading.opened);
 	const bool refined =

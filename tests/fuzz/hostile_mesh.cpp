@@ -474,6 +474,9 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 		options.finish = hyperbolicOptions.finish = static_cast<Finish>(bytes.below(3));
 	if (bytes.oneIn(2))
 		drawAnyTriangles(bytes);
+	if (bytes.oneIn(8))
+		options.sharpAngle = hyperbolicOptions.sharpAngle =
+			bytes.oneIn(16) ? awkward(bytes) : bytes.real(0.0, kPi);
 }
 
 /// Another mesh, or a change of this one, behind everything else like the rarer options. Most of them

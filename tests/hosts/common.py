@@ -24,7 +24,7 @@ ALWAYS = {
     "degenerate_faces": int, "cones": int, "chosen_seam_edges": int,
     "chosen_seam_length": float, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int,
-    "occupancy": float, "capped_holes": int,
+    "occupancy": float, "padding_pixels": float, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "unequal_seams": int, "overlap_cuts": int}
 
 
@@ -44,31 +44,33 @@ SPHERE = {
 
 TEXTURE = {"texture_scale": float}
 
-# Parameter ids in the order of the public interface.
-SEAMS = ["Shortest", "Existing texture seams", "Selected edges", "Border of selected faces"]
+# Parameter ids in the order of the public interface. Hosts with a dialog have one text, "options", for the RARE ones.
+SEAMS = ["Shortest", "Existing texture seams", "Selected edges", "Border of selected faces", "Sharp edges"]
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
 METHOD = ["Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"]
-CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
-           "cone_rounding": ["Free", "Multiples of pi/2"],
-           "method": METHOD,
+CHOICES = {"target_curvature": TARGET, "seams": SEAMS, "method": METHOD,
+           "layers": ["None", "Flat mesh", "Sphere", "Flat mesh and sphere"],
            "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for room",
                       "As they are, only packed"],
-           "join_vertices": ["Automatic", "Never", "Always"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],
            "holes": ["Boundaries", "Capped", "Short ones capped"]}
+RARE_CHOICES = {"cone_rounding": ["Free", "Multiples of pi/2"],
+                "join_vertices": ["Automatic", "Never", "Always"]}
+OPTIONS = ("options", "String", "")
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.0),
-    ("seams", "Enum", 0), ("output_triangulation", "Enum", 0), ("chart_margin", "Float", 0.0),
-    ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 2), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
-    ("cone_rounding", "Enum", 0),
-    ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 2),
-    ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False),
-    ("join_vertices", "Enum", 0),
-    ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
-    ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)]
+    ("seams", "Enum", 0), ("padding", "Int", 4), ("texture_size", "Int", 2048),
+    ("carry_texture", "String", ""), ("layers", "Enum", 0),
+    ("charts", "Enum", 2), ("normalize_uv", "Bool", True), ("holes", "Enum", 2),
+    ("output_triangulation", "Enum", 0), ("finish", "Enum", 2), ("method", "Enum", 0),
+    ("epsilon", "Float", 1e-8), OPTIONS]
+COMMONLY_RARE = [
+    ("sharp_angle", "Float", 30.0), ("join_vertices", "Enum", 0), ("colorize", "Bool", False),
+    ("report", "String", ""), ("time_limit", "Float", 0.0)]
+RARE = [("cone_count", "Int", 0), ("cone_rounding", "Enum", 0), ("seam_hiding", "Float", 0.0),
+        *COMMONLY_RARE]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",
@@ -78,20 +80,32 @@ HYPERBOLIC = types.SimpleNamespace(
                              "From vertex quality"],
         "seams": SEAMS, "method": METHOD[:2],
         "output_triangulation": ["Keep the mesh", "Common refinement"],
-        "finish": ["None", "Repair"],
-        "join_vertices": ["Automatic", "Never", "Always"]},
+        "finish": ["None", "Repair"]},
+    RARE_CHOICES={"join_vertices": RARE_CHOICES["join_vertices"]},
     PARAMETERS=[
-        ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
-        ("output_triangulation", "Enum", 0), ("colorize", "Bool", False),
-        ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
+        ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0), ("seams", "Enum", 0),
+        ("output_triangulation", "Enum", 0), ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
         ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
-        ("seams", "Enum", 0), ("free_boundary", "Bool", False), ("method", "Enum", 0),
-        ("finish", "Enum", 1), ("join_vertices", "Enum", 0),
-        ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
-        ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)])
+        ("free_boundary", "Bool", False), ("method", "Enum", 0), ("finish", "Enum", 1),
+        ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("epsilon", "Float", 1e-8), OPTIONS],
+    RARE=COMMONLY_RARE)
 
 # What the dialogs show at once; the rest is behind "Show advanced parameters".
 SHOWN = 8
+
+
+def all_parameters(our_filter):
+    """As Python, C and the command line have them."""
+    return our_filter.PARAMETERS[:-1] + our_filter.RARE
+
+
+def in_dialog(our_filter, values):
+    """Parameters as hosts with a dialog have them."""
+    rare = {name: values[name] for name, _, _ in our_filter.RARE if name in values}
+    shown = {name: value for name, value in values.items() if name not in rare}
+    if rare:
+        shown["options"] = "; ".join(f'{name}="{value}"' for name, value in rare.items())
+    return shown
 
 
 def skip(reason):

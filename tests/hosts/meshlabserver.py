@@ -56,11 +56,12 @@ def parameter_xml(name, kind, value, choices_of):
         choices = choices_of[name]
         extra = f' enum_cardinality="{len(choices)}"' + "".join(
             f" enum_val{i}={quoteattr(choice)}" for i, choice in enumerate(choices))
-    return f'  <Param type="Rich{kind}" name="{name}" value="{value}"{extra}/>\n'
+    return f'  <Param type="Rich{kind}" name="{name}" value={quoteattr(str(value))}{extra}/>\n'
 
 
 def step(our_filter=common, **values):
     """Our filter as a part of a script, with the defaults where no value is given."""
+    values = common.in_dialog(our_filter, values)
     unknown = set(values) - {name for name, _, _ in our_filter.PARAMETERS}
     if unknown:
         raise ValueError(f"unknown parameters {unknown}")

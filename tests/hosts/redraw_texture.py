@@ -129,7 +129,7 @@ def main():
         for way, filter_name, options in (
                 ("redrawn", "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge",
                  {"carry_texture": os.path.abspath(f"{name}_redrawn.png"), "texture_size": SIZE,
-                  "chart_margin": 4 / SIZE}),
+                  "padding": 4}),
                 ("defragmented", "apply_texmap_defragmentation", {"timelimit": 120})):
             meshes = pymeshlab.MeshSet()
             meshes.load_new_mesh(f"{name}_old.obj")

@@ -148,7 +148,7 @@ class Batch(unittest.TestCase):
     def test_layers_and_no_results_of_other_parameters(self):
         self.write("double.ply", meshes.double_torus())
         self.write("double.ply.ply", meshes.hill())  # a name that begins alike
-        code, text = self.batch("--flat-layer", "--report", "run.html")
+        code, text = self.batch("--layers", "Flat mesh", "--report", "run.html")
         self.assertEqual(code, 0, text)
         others = {file for file in os.listdir(self.out) if file.startswith("double.ply.ply.")}
         self.assertEqual(others, {"double.ply.ply." + ending
@@ -307,12 +307,12 @@ class Batch(unittest.TestCase):
         self.write("hill.ply", meshes.hill())
         self.write("more/torus.ply", meshes.torus())
         for ran in (2, 0):
-            code, text = self.batch("--flat-layer", "--report", "run.html")
+            code, text = self.batch("--layers", "Flat mesh", "--report", "run.html")
             self.assertEqual(code, 0, text)
             self.assertIn(f"2 meshes, {2 - ran} done before, {ran} to run", text)
             self.assertNotIn("Skipped", text)
         self.write("hill.ply", meshes.hill(9))
-        self.assertIn("2 meshes, 1 done before, 1 to run", self.batch("--flat-layer", "--report",
+        self.assertIn("2 meshes, 1 done before, 1 to run", self.batch("--layers", "Flat mesh", "--report",
                                                                       "run.html")[1])
         self.check_solved(["hill.ply", "more/torus.ply"], genus=None)
         self.write("double.ply", meshes.double_torus())
@@ -332,6 +332,9 @@ class Batch(unittest.TestCase):
                 (path, "out.stl", (), 2, "OUT must end in .obj or .ply"),
                 (path, os.path.join(path, "out.ply"), (), 1, "hill.ply"),
                 (path, "out.ply", ("--target-curvature", "Disc"), 2, "did you mean 'Disk'"),
+                (path, "out.ply", ("--chart-margin=0.004",), 2, "--chart-margin: it is 'padding' now"),
+                (path, "out.ply", ("--no-flat-layer",), 2, "--no-flat-layer: it is layers='Flat mesh' now"),
+                (path, "out.ply", ("more",), 2, "There is no place for 'more'"),
                 (path, "out.ply", ("--cone-distortion", "-1"), 1, "failed: .* cannot be used")):
             with self.subTest(out=out, options=options):
                 done = subprocess.run(

@@ -164,7 +164,7 @@ class Results(unittest.TestCase):
 
     def test_flat_layer(self):
         documents = mesh_set(meshes.torus())
-        self.check(documents, flat_layer=True)
+        self.check(documents, layers="Flat mesh")
         self.assertEqual(documents.mesh_number(), 2)
         self.assertEqual(documents.current_mesh_id(), 0)
         flat = documents.mesh(1)
@@ -186,7 +186,7 @@ class Results(unittest.TestCase):
     @unittest.skipIf(BY_ARRAYS, "PyMeshLab gives no program the means to remove colours")
     def test_colours_of_an_earlier_run_go(self):
         documents = mesh_set(meshes.torus())
-        self.check(documents, colorize=True, flat_layer=True)
+        self.check(documents, colorize=True, layers="Flat mesh")
         mesh, flat = documents.mesh(0), documents.mesh(1)
         self.assertTrue(mesh.has_vertex_color() and flat.has_vertex_color())
         self.assertGreater(len(numpy.unique(flat.vertex_color_matrix(), axis=0)), 9)
@@ -277,14 +277,14 @@ class Results(unittest.TestCase):
             subprocess.run([sys.executable, script, os.path.join(folder, "checks.png")], check=True)
             documents = load(path)
         self.assertEqual(list(documents.mesh(0).textures()), ["checks.png"])
-        self.check(documents, flat_layer=True)
+        self.check(documents, layers="Flat mesh")
         self.assertEqual(list(documents.mesh(1).textures()), ["checks.png"])
 
     def test_sphere_layer(self):
         documents = mesh_set(meshes.sphere())
         select(documents, "abs(z) > 0.99 || abs(x) > 0.99")
         returned = self.check(documents, target_curvature="Cones at selected vertices",
-                              sphere_layer=True)
+                              layers="Sphere")
         self.assertEqual(returned["sphere_flipped_faces"], 0)
         self.assertLess(returned["sphere_qc_area_mean"], 1.2)
         self.assertEqual(documents.mesh_number(), 2)
@@ -898,9 +898,9 @@ class BadInput(unittest.TestCase):
                 ("cone_distortion.*greater than 0", {"cone_distortion": math.inf}),
                 ("seam_hiding.*from 0 to 1", {"seam_hiding": -0.1}),
                 ("seam_hiding.*from 0 to 1", {"seam_hiding": math.nan}),
-                ("chart_margin.*from 0 to 0.25", {"chart_margin": 0.3}),
-                ("chart_margin.*from 0 to 0.25", {"chart_margin": math.inf}),
-                ("time_limit.*number of seconds", {"time_limit": math.inf}),
+                ("padding.*0 to 512 pixels", {"padding": 513}),
+                ("padding.*0 to 4 pixels", {"padding": 5, "texture_size": 16}),
+                ("sharp_angle.*at most 180", {"seams": "Sharp edges", "sharp_angle": 0.0}),
                 ("time_limit.*number of seconds", {"time_limit": math.nan}),
                 ("time_limit.*number of seconds", {"time_limit": -1.0}),
                 ("time_limit.*mesh is unchanged", {"time_limit": 1e-6})):

@@ -53,28 +53,33 @@ class Readme(unittest.TestCase):
         cls.text = read("filter_ricci", "README.md")
 
     def check_parameters(self, page, our_filter):
-        """The page of a filter names its parameters, those that the dialog shows first."""
-        expected, choices = our_filter.PARAMETERS, our_filter.CHOICES
-        items = [" ".join(item.split()) for item in re.findall(r"(?ms)^- (.*?)(?=^\S|\Z)", page)]
-        self.assertEqual(len(items), len(expected))
-        shown, hidden = page.split("**Advanced parameters:**")
-        self.assertEqual(len(re.findall(r"(?m)^- ", shown)), common.SHOWN)
-        for item, (name, kind, value) in zip(items, expected):
+        """The page of a filter names its parameters where dialogs have them, and what is the same in both once."""
+        expected = {name: (name, kind, value) for name, kind, value in common.all_parameters(our_filter)}
+        choices = {**our_filter.CHOICES, **our_filter.RARE_CHOICES}
+        shown, rest = page.split("**Advanced parameters:**")
+        places = [shown.split("**Parameters:**")[1], *rest.split("**Options**")]
+        names = [sorted(name for line in re.findall(r"(?m)^- (.*?)(?:<br>|: as in)", place)
+                        for name in re.findall(r"\*\*`(\w+)", line)) for place in places]
+        listed = list(expected)
+        rare = [name for name, _, _ in our_filter.RARE]
+        self.assertEqual(names, [sorted(part) for part in (
+            listed[:common.SHOWN], listed[common.SHOWN:len(listed) - len(rare)], rare)])
+        for same in re.findall(r"(?m)^- (.*): as in the Euclidean filter\.$", page):
+            for name in re.findall(r"`(\w+)`", same):
+                self.assertIn(expected.pop(name), common.all_parameters(common))
+                self.assertEqual(choices.get(name), {**common.CHOICES, **common.RARE_CHOICES}.get(name))
+        for name, kind, value in expected.values():
             with self.subTest(parameter=name):
-                written, python, default, number, listed = re.match(
-                    r"\*\*`(\w+) : (\w+) = (.*?)(?: \(or int = (\d+)\))?`\*\*"
-                    r"(?:<br>Possible enum values: (.*?)<br>)?", item).groups()
-                self.assertEqual(written, name)
+                python, default, number, listed, text = re.search(
+                    rf"(?m)^- \*\*`{name} : (\w+) = (.*?)(?: \(or int = (\d+)\))?`\*\*"
+                    r"(?:<br>Possible enum values: (.*?)<br>|<br>) \*[^*]*\*: (.*)$", page).groups()
                 self.assertEqual("Enum" if number else KINDS[python], kind)
                 self.assertEqual(int(number) if number else ast.literal_eval(default), value)
-                if item.endswith("**: as in the Euclidean filter."):
-                    self.assertIn((name, kind, value), common.PARAMETERS)
-                    self.assertEqual(choices.get(name), common.CHOICES.get(name))
-                    continue
-                names = [f"{i}. `'{c}'`" for i, c in enumerate(choices.get(name, []))]
-                self.assertEqual(listed, ", ".join(names) or None)
-                tooltip = re.sub(r"\(.*?\)|\d\.\d", "", item.split("*: ", 1)[1])
+                self.assertEqual(listed, ", ".join(
+                    f"{i}. `'{c}'`" for i, c in enumerate(choices.get(name, []))) or None)
+                tooltip = re.sub(r"\(.*?\)|\d\.\d", "", text)
                 self.assertLessEqual(len(re.findall(r"[a-z0-9\])]\.(?: |$)", tooltip)), 2, "sentences")
+                self.assertLessEqual(len(text.split()), 25)
 
     def test_parameters(self):
         for key, our_filter in (("Euclidean", common), ("hyperbolic", common.HYPERBOLIC)):
@@ -169,9 +174,8 @@ class Readme(unittest.TestCase):
         """The script that users start from has every parameter, with its type."""
         sample = read("filter_ricci", "samples", "automatic.mlx")
         written = re.findall(r'<Param type="Rich(\w+)" name="(\w+)"', sample)
-        files = {"report": "String", "carry_texture": "String"}
         self.assertEqual([(name, kind) for kind, name in written],
-                         [(name, files.get(name, kind)) for name, kind, _ in common.PARAMETERS])
+                         [(name, kind) for name, kind, _ in common.PARAMETERS])
 
     def test_every_group_of_host_tests_is_run(self):
         listed = read("tests", "hosts", "CMakeLists.txt")

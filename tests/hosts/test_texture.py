@@ -105,7 +105,7 @@ class Texture(textures.TexturedTorus):
                            [i % 2 for i in range(count)])
         documents = load(self.path("in.ply"))
         self.assertEqual(len(documents.current_mesh().textures()), 2)
-        self.carry(documents, flat_layer=True)
+        self.carry(documents, layers="Flat mesh")
         self.check(documents, textures.read_png(self.path("new.png")))
         for i in range(2):
             self.assertEqual(list(documents.mesh(i).textures()), ["new.png"])
@@ -155,7 +155,7 @@ class Texture(textures.TexturedTorus):
     def test_texture_scale(self):
         """Twice the texels per unit of length, from the same map."""
         first = self.carry(self.textured(), texture_size=512)["texture_scale"]
-        second = self.carry(self.textured(), texture_size=1024, chart_margin=24 / 512)
+        second = self.carry(self.textured(), texture_size=1024, padding=48)
         self.assertAlmostEqual(second["texture_scale"] / first, 2.0, delta=1e-3)
 
     def refused(self, words, documents, our_filter=common, **values):

@@ -286,7 +286,7 @@ class Input(Told):
 
     def test_sphere_layer_of_thin_shells(self):
         for thickness in (0.1, 0.01, 0.001):
-            coarse, fine = (run(mesh_set(meshes.plate(size, thickness)), sphere_layer=True)
+            coarse, fine = (run(mesh_set(meshes.plate(size, thickness)), layers="Sphere")
                             for size in (24, 48))
             self.assertEqual(fine["sphere_flipped_faces"], 0)
             # The map of straight triangles converges to a conformal one.

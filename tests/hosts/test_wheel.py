@@ -288,7 +288,7 @@ class Progress(unittest.TestCase):
 
         with tempfile.TemporaryDirectory() as folder:
             for problem, stop in ((KeyboardInterrupt, interrupt), (ZeroDivisionError, fail)):
-                seconds = self.ended(mesh, problem, stop, flat_layer=True,
+                seconds = self.ended(mesh, problem, stop, layers="Flat mesh",
                                      report=os.path.join(folder, "run.html"))
                 self.assertLess(seconds, 1.0)
             self.assertEqual(os.listdir(folder), [])
@@ -333,7 +333,7 @@ class Progress(unittest.TestCase):
             raise ZeroDivisionError
 
         def call(number):
-            flatten(*mesh, flat_layer=True, progress=lambda *_: None)
+            flatten(*mesh, layers="Flat mesh", progress=lambda *_: None)
             if number % 3 == 0:
                 with self.assertRaises(ricciflow.Refused):
                     flatten(*mesh, target_curvature="Flat everywhere")
@@ -400,7 +400,7 @@ class Functions(unittest.TestCase):
         for function, mesh, parameters, layers in (
                 (flatten, arrays(meshes.torus()), {"cone_distortion": 1.0}, ()),
                 (flatten, arrays(meshes.double_torus()), {"output_triangulation": 1}, ()),
-                (flatten, arrays(meshes.sphere()), {"flat_layer": True, "sphere_layer": True},
+                (flatten, arrays(meshes.sphere()), {"layers": "Flat mesh and sphere"},
                  ("flat", "sphere")),
                 (flatten, mirror, {"finish": "Least stretch", "colorize": True}, ()),
                 (flatten, arrays(meshes.bow_tie()), {}, ()),
@@ -478,6 +478,8 @@ class Functions(unittest.TestCase):
         for edges in ([sorted(pair) for pair in creases], marks):
             result = flatten(vertices, faces, selected_edges=edges)
             self.assertEqual((result.charts, result.chosen_seam_edges), (14, len(creases)))
+        sharp = flatten(vertices, faces, seams="Sharp edges", sharp_angle=60.0)
+        self.assertTrue(numpy.array_equal(sharp.uv, result.uv))
         again = flatten(vertices, faces, uv=result.uv)
         self.assertEqual((again.charts, again.chosen_seam_edges), (14, len(creases)))
         half = vertices[faces].mean(axis=1)[:, 0] > 2.5
@@ -499,8 +501,14 @@ class Functions(unittest.TestCase):
                  {"cone_rounding"}),
                 (torus, {"cone_count": 4, "cone_distortion": 0.3}, {"cone_distortion"}),
                 (torus, {"method": "Fixed triangles", "finish": "Repair"}, {"finish"}),
-                (torus, {"texture_size": 512, "free_boundary": False},
+                (torus, {"texture_size": 512, "padding": 0, "free_boundary": False},
                  {"texture_size", "free_boundary"}),
+                (torus, {"texture_size": 0}, {"texture_size"}),
+                (torus, {"texture_size": 512}, set()),
+                (torus, {"sharp_angle": 10.0}, {"sharp_angle"}),
+                (hill, {"seams": "Sharp edges", "sharp_angle": 180.0}, {"seams"}),
+                (hill, {"charts": "As they are, only packed", "uv": hill[0][hill[1]][:, :, :2],
+                        "finish": "Repair", "cone_count": 3}, {"finish", "cone_count"}),
                 (hill, {"holes": "Capped"}, {"holes"}),
                 (hill, {"free_boundary": False}, set()),
                 (torus, {"cone_distortion": 0.3}, set())):
@@ -510,10 +518,19 @@ class Functions(unittest.TestCase):
             self.assertEqual({line.split()[0] for line in told if "has no effect" in line},
                              ignored, values)
 
+    def test_real_size_has_the_same_charts(self):
+        for mesh in (meshes.torus(), meshes.double_torus(), meshes.hill()):
+            fitted, real = (flatten(*arrays(mesh), normalize_uv=normalize) for normalize in (True, False))
+            for key in ("charts", "seam_edges", "overlap_cuts", "seam_length", "cones", "padding_pixels"):
+                self.assertEqual(fitted.results[key], real.results[key], key)
+            if fitted.charts > 1:
+                scale = numpy.ptp(real.uv) / numpy.ptp(fitted.uv)
+                self.assertLess(numpy.abs(real.uv - scale * fitted.uv).max(), 1e-5 * scale)
+
     def test_no_sphere_layer_of_another_surface(self):
         for mesh in (meshes.torus(), meshes.hill()):
             with self.assertWarnsRegex(ricciflow.RicciWarning, "genus 0.*no sphere layer"):
-                result = flatten(*arrays(mesh), flat_layer=True, sphere_layer=True)
+                result = flatten(*arrays(mesh), layers="Flat mesh and sphere")
             self.assertEqual(set(result.layers), {"flat"})
 
     def test_doubts_are_warnings(self):
@@ -664,9 +681,9 @@ class Functions(unittest.TestCase):
         for road in roads():
             documents = pymeshlab.MeshSet()
             documents.create_sphere()
-            self.assertEqual(set(flatten(documents, flat_layer=True, sphere_layer=True).layers),
+            self.assertEqual(set(flatten(documents, layers="Flat mesh and sphere").layers),
                              {"flat", "sphere"}, road)
-            again = flatten(documents, sphere_layer=True)  # not those of the first run
+            again = flatten(documents, layers="Sphere")  # not those of the first run
             self.assertEqual(set(again.layers), {"sphere"})
             lengths = numpy.linalg.norm(again.layers["sphere"].vertices, axis=1)
             self.assertTrue(numpy.allclose(lengths, 1.0))
@@ -718,10 +735,10 @@ class Functions(unittest.TestCase):
     def test_pickled(self):
         """Copies, and results of other processes, have and save the same."""
         vertices, faces = arrays(meshes.double_torus())
-        result = flatten(vertices, faces, flat_layer=True)
+        result = flatten(vertices, faces, layers="Flat mesh")
         with concurrent.futures.ProcessPoolExecutor(
                 1, multiprocessing.get_context("fork")) as pool:
-            elsewhere = pool.submit(flatten, vertices, faces, flat_layer=True).result()
+            elsewhere = pool.submit(flatten, vertices, faces, layers="Flat mesh").result()
         with tempfile.TemporaryDirectory() as folder:
             def saved(one):
                 path = os.path.join(folder, "one.ply")
@@ -790,12 +807,16 @@ class Functions(unittest.TestCase):
                 flatten(bad)
         for error, pattern, slip in (
                 (TypeError, "'cone_distorsion': did you mean 'cone_distortion'", {"cone_distorsion": 1}),
-                (TypeError, "'padding': it is 'chart_margin' here", {"padding": 2}),
+                (TypeError, "'island_margin': it is 'padding' here", {"island_margin": 2}),
+                (TypeError, "'chart_margin': it is 'padding' now.* 0.004 is 4 at", {"chart_margin": 0.01}),
+                (TypeError, "'flat_layer': it is layers='Flat mesh' now", {"flat_layer": True}),
+                (TypeError, "'sphere_layer': it is layers='Sphere' now", {"sphere_layer": True}),
+                (TypeError, "'options': its names are parameters", {"options": "time_limit=1"}),
                 (ValueError, "'Disc' is not a choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
                 (ValueError, "'Torus' is not a choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
                 (ValueError, "^target_curvature: 99", {"target_curvature": 99}),
                 (TypeError, "^cone_distortion must be of type float", {"cone_distortion": "a"}),
-                (TypeError, "^flat_layer must be of type bool", {"flat_layer": "yes"}),
+                (TypeError, "^colorize must be of type bool", {"colorize": "yes"}),
                 (TypeError, "^texture_size must be of type int", {"texture_size": 2.5}),
                 (TypeError, "^selected must hold numbers, not 'first'", {"selected": "first"}),
                 (TypeError, "^selected must hold numbers, not {0: 1}", {"selected": {0: 1}}),
@@ -810,7 +831,7 @@ class Functions(unittest.TestCase):
                                      ("no such folder/hill.ply", FileNotFoundError, "no such folder")):
             with self.assertRaisesRegex(error, pattern):
                 result.save(path)
-        flatten(good, target_curvature="disk", flat_layer=numpy.True_, cone_distortion=numpy.float32(1))
+        flatten(good, target_curvature="disk", colorize=numpy.True_, cone_distortion=numpy.float32(1))
 
     def test_files(self):
         """One that is missing, one that is broken, and relative names."""
@@ -862,14 +883,16 @@ class Functions(unittest.TestCase):
         documents.create_torus()
         for our_filter, function, description in FILTERS:
             method = getattr(pymeshlab.MeshSet, our_filter.PYTHON_NAME)
-            names = [name for name, _, _ in our_filter.PARAMETERS]
+            names = [name for name, _, _ in common.all_parameters(our_filter)]
             self.assertEqual(list(inspect.signature(method).parameters)[1:], names)
             self.assertEqual(list(inspect.signature(function).parameters)[9:], names)
             for parameter in description["parameters"]:
                 self.assertIn(parameter["label"], method.__doc__)
                 self.assertIn(parameter["label"], function.__doc__)
-            self.assertEqual([p["advanced"] for p in description["parameters"]],
-                             [i >= common.SHOWN for i in range(len(names))])
+            places = [p["place"] for p in description["parameters"]]
+            self.assertEqual(places[:common.SHOWN + 1], common.SHOWN * ["shown"] + ["advanced"])
+            self.assertEqual(names[places.index("options"):], [name for name, _, _ in our_filter.RARE])
+            self.assertLessEqual(len(our_filter.PARAMETERS), 16)
         self.assertLess(max(map(len, pydoc.render_doc(function).splitlines()[:3])), 100)
         with self.assertRaisesRegex(TypeError, "did you mean 'seams'"):
             documents.compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(seam="Shortest")
@@ -878,7 +901,10 @@ class Functions(unittest.TestCase):
         if not ricciflow.pymeshlab.USES_PLUGIN:
             return
         values = documents.filter_parameter_values(common.PYTHON_NAME)
+        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS])
         for parameter in DESCRIPTIONS[0]["parameters"]:
+            if parameter["place"] == "options":
+                continue
             default = parameter["default"]
             if parameter["type"] == "enum":
                 default = parameter["choices"].index(default)

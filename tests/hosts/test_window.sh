@@ -41,9 +41,12 @@ solved() {
 	open_filter "$name" || fail "the filter's dialog did not open"
 	picture "$pictures/dialog.png"
 	fits_the_screen || fail "the dialog is larger than the screen"
+	local narrow
+	narrow=$(dialog_width)
 	press_help
 	picture "$pictures/help.png"
 	fits_the_screen || fail "the dialog with its help is larger than the screen"
+	[ "$(dialog_width)" -gt $((narrow + 400)) ] || fail "there is no room for two columns of help"
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
 	grep -q "'Transfer texture to' bakes" "$meshlab_log" || fail "the log does not name a label"
@@ -71,6 +74,12 @@ press_help() {
 	eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
 	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 52)) click 1
 	sleep 1
+}
+
+dialog_width() {
+	local X Y WIDTH HEIGHT SCREEN WINDOW
+	eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
+	echo "$WIDTH"
 }
 
 # Its lower right end, where Apply is.

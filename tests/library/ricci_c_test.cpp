@@ -195,7 +195,9 @@ TEST(Library, GivesWhatTheFacadeGives)
 	const SurfaceMesh mesh = torus(2.0, 0.7, 24, 12);
 	DoubleMesh m;
 	toVcg(mesh, m);
-	const Flow::Result map = Flow::Compute(m, Flow::Params());
+	Flow::Params params;
+	params.chartMargin = 4.0 / 2048.0;
+	const Flow::Result map = Flow::Compute(m, params);
 	Flow::WriteVertexQuality(m, map);
 	Flow::WriteWedgeTexCoord(m, map);
 	CRun run(mesh);
@@ -254,18 +256,41 @@ TEST(Library, RunsAgainWithOtherParameters)
 	EXPECT_EQ(ricci_output_name(run, -1), nullptr);
 }
 
-TEST(Library, ReadsNumbersInNoLocale)
+/// Pixels of a texture, from the border and between charts; less where so many charts do not fit.
+TEST(Library, PadsChartsInPixels)
 {
-	const DecimalCommas commas;
-	const SurfaceMesh mesh = rectangle(4, 4, 1, 1);
 	const auto boxOf = [](const CRun& run) {
 		double least = 1.0;
 		for (const double x : run.output<double>("uv"))
 			least = std::min(least, x);
 		return least;
 	};
-	EXPECT_NEAR(boxOf(CRun(mesh).with("chart_margin", "2.5e-1").execute()), 0.25, 1e-6);
-	EXPECT_EQ(ricci_set_parameter(CRun(mesh), "chart_margin", "0,25"), RICCI_MISUSE);
+	const SurfaceMesh square = rectangle(4, 4, 1, 1);
+	for (const auto& [padding, size] : {std::pair("4", 2048), std::pair("256", 1024)}) {
+		CRun run(square);
+		run.with("padding", padding).with("texture_size", std::to_string(size).c_str()).execute();
+		EXPECT_NEAR(boxOf(run), std::stod(padding) / size, 1e-6);
+		EXPECT_NEAR(run.output<double>("results.padding_pixels").front(), std::stod(padding), 1e-9);
+	}
+	SurfaceMesh many; // 30 charts in six columns: seven margins of an eighth leave almost no room
+	for (int i = 0; i < 30; ++i)
+		many = sideBySide(many, square, 3.0 * i);
+	CRun run(many);
+	run.with("padding", "512").execute();
+	EXPECT_EQ(run.output<double>("results.padding_pixels").front(), 128.0);
+}
+
+TEST(Library, ReadsNumbersInNoLocale)
+{
+	const DecimalCommas commas;
+	const auto sharpEdges = [&](const char* degrees) {
+		CRun run(slab());
+		run.with("seams", "Sharp edges").with("sharp_angle", degrees).execute();
+		return run.output<int32_t>("results.chosen_seam_edges").front();
+	};
+	EXPECT_GT(sharpEdges("8.95e1"), 0);
+	EXPECT_EQ(sharpEdges("9.05e1"), 0);
+	EXPECT_EQ(ricci_set_parameter(CRun(slab()), "sharp_angle", "90,5"), RICCI_MISUSE);
 }
 
 /// What is wrong, the code, and words of the sentence.
@@ -353,9 +378,13 @@ const Wrong kWrong[] = {
 	 RICCI_TIMED_OUT,
 	 "stopped after"},
 	{"WideMargin",
-	 [](CRun& r) { return executed(r, "chart_margin", "2"); },
+	 [](CRun& r) { return executed(r, "padding", "513"); },
 	 RICCI_REFUSED,
-	 "chart_margin"},
+	 "The value 513 of padding cannot be used. Use 0 to 512 pixels"},
+	{"OldName",
+	 [](CRun& r) { return ricci_set_parameter(r, "chart_margin", "0.004"); },
+	 RICCI_MISUSE,
+	 "'chart_margin': it is 'padding' now, in pixels of texture_size: 0.004 is 4"},
 	{"NoDisk",
 	 [](CRun& r) { return executed(r, "target_curvature", "Disk"); },
 	 RICCI_REFUSED,
@@ -821,7 +850,7 @@ TEST(Library, GivesTheLayers)
 			EXPECT_LE(x, 1.0);
 		}
 	CRun sphere(tetrahedron());
-	sphere.with("sphere_layer", "1").execute();
+	sphere.with("layers", "Sphere").execute();
 	const auto places = sphere.output<double>("sphere.vertices");
 	ASSERT_EQ(places.size(), 12u);
 	for (std::size_t v = 0; v < 4; ++v)
@@ -860,8 +889,12 @@ TEST(Library, DrawsThePictures)
 	CRun deep = drawn(&pictures[2]);
 	deep.execute();
 	EXPECT_EQ(deep.output<uint16_t>("picture").at(3 * (32 * 64 + 32)), 1000);
-	// Gutters take their most of so small a picture, a twentieth of its side.
-	EXPECT_NEAR(deep.result<double>("texture_scale"), 0.9 * 64.0 / 16.0, 1e-6);
+	// Gutters take their most of so small a picture, a twentieth of its side. The padding takes four texels.
+	EXPECT_NEAR(deep.result<double>("texture_scale"), (64.0 - 8.0) / 16.0, 1e-5);
+	CRun narrow = drawn(&pictures[2]);
+	narrow.with("padding", "0").execute();
+	EXPECT_NEAR(narrow.result<double>("texture_scale"), 0.9 * 64.0 / 16.0, 1e-6);
+	EXPECT_NEAR(narrow.result<double>("padding_pixels"), 0.05 * 64.0, 1e-12);
 	EXPECT_FALSE(std::filesystem::exists("new.png"));
 
 	CRun missing = drawn(nullptr);

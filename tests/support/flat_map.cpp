@@ -144,6 +144,8 @@ FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInpu
 {
 	Options unscaled = options;
 	unscaled.normalizeUV = false;
+	if (options.charts == Charts::CutForPacking)
+		unscaled.charts = Charts::WithoutOverlap;
 	return withCorners(mesh, parametrizeEuclidean(mesh, input, unscaled));
 }
 

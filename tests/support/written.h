@@ -24,6 +24,8 @@ inline Options unscaled(OutputTriangulation output = OutputTriangulation::KeepMe
 	Options params;
 	params.output = output;
 	params.normalizeUV = false;
+	params.charts = Charts::WithoutOverlap; // not cut to fill a square, nor turned
+	params.turns = ChartTurns::None;
 	return params;
 }
 

@@ -81,12 +81,12 @@ public:
 		MemoryLimit,            ///< value in bytes; must not be negative
 		BoxPlaces,              ///< value: places that PlaceBoxes gave for count boxes
 		Epsilon,                ///< value; must be above 0
+		SharpAngle,             ///< value in radians; must be above 0 and at most pi
 		ConeCount,              ///< value; must not be negative
 		ConeDistortion,         ///< value; must be finite and not negative
 		ConeAngle,              ///< value in radians; must be above 0 and finite
 		SeamHiding,             ///< value; must be in [0, 1]
 		ChartMargin,            ///< value; must be in [0, bound]
-		ChartMarginTooWide,     ///< value; leaves no room for count charts
 		WithoutFlips,           ///< the common refinement and capped holes belong to flips
 		WithoutPositions,       ///< of a surface given by lengths; see flatten()
 		HyperbolicMethod,       ///< the hyperbolic flow has no edge swaps and no Thurston packing

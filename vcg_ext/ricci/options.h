@@ -2,6 +2,7 @@
 #ifndef RICCI_OPTIONS_H
 #define RICCI_OPTIONS_H
 
+#include "base/numbers.h"
 #include "base/points.h"
 
 #include <functional>
@@ -107,6 +108,10 @@ struct FlowOptions
 
 	JoinSplitVertices join = JoinSplitVertices::Automatic;
 
+	/// Edges at which the surface bends by more than this are seams, as those that SurfaceMesh::seam marks: radians
+	/// between the normals of the two faces, above 0. pi: none. Needs positions.
+	double sharpAngle = kPi;
+
 	/// CommonRefinement belongs to intrinsic flips.
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
@@ -165,12 +170,13 @@ enum class ChartTurns {
 /// How the charts of a map are packed.
 struct PackOptions
 {
-	/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the scale at
-	/// which a chart has the area of its component (or its boundary the input's length).
+	/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: the same charts in a square
+	/// from the origin, at the scale at which a chart has the area of its component (or its boundary the input's
+	/// length).
 	bool normalizeUV = true;
 
 	/// Least distance of two charts, and of a chart from the border of the square that holds all, as a
-	/// share of its side, between 0 and kMaxChartMargin.
+	/// share of its side, between 0 and kMaxChartMargin. Less where so many charts do not fit with it: Report::margin.
 	double chartMargin = 0.0;
 
 	/// Rectangle allows none, quarter turns across seams right angles only.

@@ -38,7 +38,7 @@ void requirePositions(const SurfaceMesh& mesh, const VertexInput& input, const O
 	if (!mesh.lengths.empty() &&
 		(choosesCorners || options.method == Method::EdgeSwaps ||
 		 options.output == OutputTriangulation::CommonRefinement || options.seamHiding > 0.0 ||
-		 options.cones.rounding == ConeRounding::QuarterTurns))
+		 options.sharpAngle < kPi || options.cones.rounding == ConeRounding::QuarterTurns))
 		throw InvalidOption(InvalidOption::WithoutPositions);
 }
 
@@ -59,6 +59,8 @@ void checkFlowOptions(const FlowOptions& options)
 	requireChoice("join", options.join, JoinSplitVertices::Always);
 	if (!(options.epsilon > 0.0 && std::isfinite(options.epsilon)))
 		throw InvalidOption(InvalidOption::Epsilon, options.epsilon);
+	if (!(options.sharpAngle > 0.0 && options.sharpAngle <= kPi))
+		throw InvalidOption(InvalidOption::SharpAngle, options.sharpAngle);
 	if (options.output == OutputTriangulation::CommonRefinement &&
 		options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
@@ -213,11 +215,9 @@ void pack(const Options& options, WholeMap& whole)
 	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	if (options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
-		options.normalizeUV && options.target == TargetCurvature::Automatic)
-		packWithCuts(map, options, turns);
-	else
-		packCharts(map, options, turns);
+	const bool mayCut = options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
+						options.target == TargetCurvature::Automatic;
+	packCharts(map, options, turns, mayCut);
 	advance(kMapped, "Finishing the coordinates");
 	if (!isFinished(options))
 		return;
@@ -387,7 +387,8 @@ Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
 	checkOptions(options);
-	if (!mesh.lengths.empty() && options.output == OutputTriangulation::CommonRefinement)
+	if (!mesh.lengths.empty() &&
+		(options.output == OutputTriangulation::CommonRefinement || options.sharpAngle < kPi))
 		throw InvalidOption(InvalidOption::WithoutPositions);
 	Parametrization leftOut;
 	WholeMap whole = chartsInDisk(mesh, input, options, leftOut);

@@ -150,6 +150,8 @@ struct ChartReport
 	/// Share of the unit square, or of the square that holds all charts and their margins where they keep
 	/// their scale, that the charts cover. Known once they are packed.
 	double occupancy = 0.0;
+	/// Options::chartMargin as it came out.
+	double margin = 0.0;
 };
 
 /// What a run measured. With several components counts are sums, errors maxima, means run over all

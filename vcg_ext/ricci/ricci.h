@@ -51,7 +51,7 @@ TextureCoordinates flatten(
 /// The same of a surface that no positions are known of: its triangles are those of the plane with these sides.
 /// \param lengths [face] of the sides from corner 0 to 1, 1 to 2 and 2 to 0. Both faces of an edge have the same.
 /// \throw also InvalidMesh NoTriangle, UnequalSides; InvalidOption WithoutPositions for what is chosen by looking at
-/// positions: the corners of Rectangle, EdgeSwaps, CommonRefinement, seamHiding, QuarterTurns
+/// positions: the corners of Rectangle, EdgeSwaps, CommonRefinement, seamHiding, sharpAngle, QuarterTurns
 TextureCoordinates flattenFromLengths(
 	const std::vector<std::array<int, 3>>& triangles,
 	const std::vector<std::array<double, 3>>& lengths,

@@ -178,7 +178,7 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 	advance(0.0, "Checking the mesh");
 	WholeMap whole;
 	Parametrization& map = whole.map;
-	whole.opened = openMesh(mesh, map.notes, cut, options.join);
+	whole.opened = openMesh(mesh, map.notes, cut, options.join, options.sharpAngle);
 	const OpenedMesh& opened = whole.opened;
 	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)

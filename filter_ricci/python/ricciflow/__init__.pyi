@@ -174,6 +174,8 @@ class Flattening(Parametrization):
     occupancy: float
     """packing efficiency: fraction of the unit square (without normalize_uv, of the square
     around all charts) that the charts cover"""
+    padding_pixels: float
+    """padding between charts and to the border of that square, in pixels of texture_size"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
@@ -322,6 +324,8 @@ class Uniformization(Parametrization):
     occupancy: float
     """packing efficiency: fraction of the unit square (without normalize_uv, of the square
     around all charts) that the charts cover"""
+    padding_pixels: float
+    """padding between charts and to the border of that square, in pixels of texture_size"""
     capped_holes: int
     """boundary loops closed for the flow"""
     overlapping_charts: int
@@ -415,37 +419,17 @@ def flatten(
         'Existing texture seams',
         'Selected edges',
         'Border of selected faces',
+        'Sharp edges',
     ]] = 'Shortest',
-    output_triangulation: Union[int, Literal[
-        'Keep the mesh',
-        'Common refinement',
-    ]] = 'Keep the mesh',
-    chart_margin: float = 0.0,
-    colorize: bool = False,
-    flat_layer: bool = False,
-    holes: Union[int, Literal[
-        'Boundaries',
-        'Capped',
-        'Short ones capped',
-    ]] = 'Short ones capped',
-    seam_hiding: float = 0.0,
-    cone_count: int = 0,
-    cone_rounding: Union[int, Literal[
-        'Free',
-        'Multiples of pi/2',
-    ]] = 'Free',
-    method: Union[int, Literal[
-        'Intrinsic flips',
-        'Fixed triangles',
-        'Edge swaps',
-        'Thurston',
-    ]] = 'Intrinsic flips',
-    finish: Union[int, Literal[
+    padding: int = 4,
+    texture_size: int = 2048,
+    carry_texture: str = '',
+    layers: Union[int, Literal[
         'None',
-        'Repair',
-        'Least distortion',
-        'Least stretch',
-    ]] = 'Least distortion',
+        'Flat mesh',
+        'Sphere',
+        'Flat mesh and sphere',
+    ]] = 'None',
     charts: Union[int, Literal[
         'As the flow has them',
         'Without overlap',
@@ -453,16 +437,42 @@ def flatten(
         'As they are, only packed',
     ]] = 'Without overlap, cut for room',
     normalize_uv: bool = True,
-    sphere_layer: bool = False,
+    holes: Union[int, Literal[
+        'Boundaries',
+        'Capped',
+        'Short ones capped',
+    ]] = 'Short ones capped',
+    output_triangulation: Union[int, Literal[
+        'Keep the mesh',
+        'Common refinement',
+    ]] = 'Keep the mesh',
+    finish: Union[int, Literal[
+        'None',
+        'Repair',
+        'Least distortion',
+        'Least stretch',
+    ]] = 'Least distortion',
+    method: Union[int, Literal[
+        'Intrinsic flips',
+        'Fixed triangles',
+        'Edge swaps',
+        'Thurston',
+    ]] = 'Intrinsic flips',
+    epsilon: float = 1e-08,
+    cone_count: int = 0,
+    cone_rounding: Union[int, Literal[
+        'Free',
+        'Multiples of pi/2',
+    ]] = 'Free',
+    seam_hiding: float = 0.0,
+    sharp_angle: float = 30.0,
     join_vertices: Union[int, Literal[
         'Automatic',
         'Never',
         'Always',
     ]] = 'Automatic',
-    carry_texture: str = '',
-    texture_size: int = 2048,
+    colorize: bool = False,
     report: str = '',
-    epsilon: float = 1e-08,
     time_limit: float = 0.0,
 ) -> Flattening:
     """UV-unwraps a mesh: a conformal map into the plane.
@@ -473,42 +483,42 @@ def flatten(
         Rectangle and flat annuli.
     cone_distortion: Largest area distortion that cones may leave (0.25: 25 %). 0: area
         distortion and seam length are balanced.
-    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
-        edges or the outline of the selected faces.
-    output_triangulation: Common refinement adds vertices where edges of the solver cross those
-        of the mesh, so that the map is exact on every piece.
-    chart_margin: Padding between two charts (UV islands) and to the border, as a fraction of
-        the texture size. 0.004: 4 pixels at 1024.
-    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
-        or worse).
-    flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
+    seams: Cut along the shortest paths only, or first along UV seams, selected edges, the
+        outline of selected faces, or edges sharper than 30 degrees (sharp_angle).
+    padding: Empty pixels between charts (UV islands) and to the border, for baking: of a
+        texture of 'Texture size' that covers the whole layout.
+    texture_size: Width and height of the texture, 16 to 16384 pixels. 0: the resolution of the
+        old textures is kept; 2048 if none is transferred.
+    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
+        new UVs. Empty: no texture.
+    layers: Add the mesh laid out in the plane, cut along its seams, or mapped conformally to
+        the unit sphere (closed surfaces of genus 0).
+    charts: Leave charts whole, split those that overlap, or with Automatic also for better
+        packing. Only packed: the old islands keep their shape.
+    normalize_uv: Scale the UVs uniformly into [0,1] x [0,1]. Off: the same charts in the real
+        size of the mesh.
     holes: Fill holes while solving, so that no seam runs to them: all boundary loops but the
         longest, or only short ones (0.1 √area).
-    seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
-        ten times longer).
+    output_triangulation: Common refinement adds vertices where edges of the solver cross those
+        of the mesh, so that the map is exact on every piece.
+    finish: After the solve, repair flipped faces; then minimise angle distortion, or stretch,
+        where the two sides of a seam may differ. Needs 'Intrinsic flips'.
+    method: What happens when a triangle degenerates during the solve: the solver flips edges
+        (recommended) or swaps them, or the run fails. Thurston: the conventional flow.
+    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
+        radians, or rounding allows no better.
     cone_count: The number of placed cones. 0: 'Cones: area distortion' decides.
     cone_rounding: Free: the least area distortion. Multiples of pi/2: a seamless map for quad
         remeshing, whose seams differ by quarter turns.
-    method: What happens when a triangle degenerates during the solve: the solver flips edges
-        (recommended) or swaps them, or the run fails. Thurston: the conventional flow.
-    finish: After the solve, repair flipped faces; then minimise angle distortion, or stretch,
-        where the two sides of a seam may differ. Needs 'Intrinsic flips'.
-    charts: Leave charts whole, split those that overlap, or with Automatic also for better
-        packing. Only packed: the old islands keep their shape.
-    normalize_uv: Scale the UVs uniformly into [0,1] x [0,1]. Off: they keep the real size of
-        the mesh.
-    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Needs one
-        closed surface of genus 0.
+    seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
+        ten times longer).
+    sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
     join_vertices: Treat vertices that coincide along edges as one, as in formats that split
         them. Automatic: only if faces share almost no vertices.
-    carry_texture: Bake the present textures, or else the colours, into this PNG file for the
-        new UVs. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
-        the old textures is kept.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
     report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
         Empty: no report.
-    epsilon: The solve stops when the curvature of every vertex is this close to its target, in
-        radians, or rounding allows no better.
     time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """
@@ -530,21 +540,21 @@ def uniformize(
         'From vertex quality',
     ]] = 'Hyperbolic metric',
     cone_angle: float = 180.0,
-    output_triangulation: Union[int, Literal[
-        'Keep the mesh',
-        'Common refinement',
-    ]] = 'Keep the mesh',
-    colorize: bool = False,
-    flat_layer: bool = False,
-    universal_cover: int = 0,
-    generator_axes: bool = False,
-    canonical_polygon: bool = False,
     seams: Union[int, Literal[
         'Shortest',
         'Existing texture seams',
         'Selected edges',
         'Border of selected faces',
+        'Sharp edges',
     ]] = 'Shortest',
+    output_triangulation: Union[int, Literal[
+        'Keep the mesh',
+        'Common refinement',
+    ]] = 'Keep the mesh',
+    flat_layer: bool = False,
+    universal_cover: int = 0,
+    generator_axes: bool = False,
+    canonical_polygon: bool = False,
     free_boundary: bool = False,
     method: Union[int, Literal[
         'Intrinsic flips',
@@ -554,15 +564,17 @@ def uniformize(
         'None',
         'Repair',
     ]] = 'Repair',
+    carry_texture: str = '',
+    texture_size: int = 2048,
+    epsilon: float = 1e-08,
+    sharp_angle: float = 30.0,
     join_vertices: Union[int, Literal[
         'Automatic',
         'Never',
         'Always',
     ]] = 'Automatic',
-    carry_texture: str = '',
-    texture_size: int = 2048,
+    colorize: bool = False,
     report: str = '',
-    epsilon: float = 1e-08,
     time_limit: float = 0.0,
 ) -> Uniformization:
     """Hyperbolic metric of a mesh, in the Poincaré disk.
@@ -571,10 +583,10 @@ def uniformize(
         triangles. Hyperbolic metric: none, for surfaces of negative Euler characteristic.
     cone_angle: The sum of the angles at each selected vertex, for 'Cones at selected vertices'.
         360: not a cone.
+    seams: Cut along the shortest paths only, or first along UV seams, selected edges, the
+        outline of selected faces, or edges sharper than 30 degrees (sharp_angle).
     output_triangulation: Common refinement adds vertices where edges of the solver cross those
         of the mesh, so that the map is exact on every piece.
-    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
-        or worse).
     flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
     universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
         copies around it, which tile the disk. 0: no layer.
@@ -582,23 +594,24 @@ def uniformize(
         as edges. On the surface they are closed geodesics.
     canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
         edges. The canonical generators pair its sides, which are geodesics.
-    seams: Cut along the shortest paths only, or first along the existing UV seams, the selected
-        edges or the outline of the selected faces.
     free_boundary: The circles at boundary vertices keep their radii, and the target holds at
         interior vertices only. Off: the target holds everywhere.
     method: What happens when a triangle degenerates during the solve: edges flip inside the
         solver (recommended), or the run fails.
     finish: After the solve, repair flipped faces. Needs the method 'Intrinsic flips'.
-    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
-        them. Automatic: only if faces share almost no vertices.
     carry_texture: Bake the present textures, or else the colours, into this PNG file for the
         new UVs. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 pixels. 0: the resolution of
-        the old textures is kept.
-    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
-        Empty: no report.
+    texture_size: Width and height of the texture, 16 to 16384 pixels. 0: the resolution of the
+        old textures is kept; 2048 if none is transferred.
     epsilon: The solve stops when the curvature of every vertex is this close to its target, in
         radians, or rounding allows no better.
+    sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
+    join_vertices: Treat vertices that coincide along edges as one, as in formats that split
+        them. Automatic: only if faces share almost no vertices.
+    colorize: Colour the vertices by angle distortion: from blue (none) to red (99th percentile
+        or worse).
+    report: Write a report: a page with diagrams and its data (.html), or the data alone (.csv).
+        Empty: no report.
     time_limit: A run that takes longer ends with an error and leaves the mesh unchanged. 0: no
         limit.
     """

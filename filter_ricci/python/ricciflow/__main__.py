@@ -14,7 +14,7 @@ without a result. An OUT that is a file is replaced, even if it is IN. A run tha
 where it stopped; a mesh runs again where mesh, parameters or library have changed. With a cluster, this
 package and both folders have to be on every machine, the folders at the same path.
 
-Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
+Layers (--layers "Flat mesh" and others) are files beside OUT: scan.flat.ply.
 
 Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 2 a slip in the command,
 130 interrupted.
@@ -24,10 +24,11 @@ import argparse
 import errno
 import importlib.util
 import os
+import re
 import sys
 
 from . import __version__, _batch
-from ._filters import DESCRIPTIONS, choice, plain
+from ._filters import DESCRIPTIONS, choice, meant, plain
 from ._loading import mesh_endings
 from .files import WRITES
 
@@ -91,10 +92,16 @@ def parse(arguments):
     parser.add_argument("--quiet", action="store_true", help="failures only")
     parser.add_argument("--verbose", action="store_true", help="all results of the mesh, by their keys")
     group = parser.add_argument_group("parameters of the filter")
-    for parameter in DESCRIPTIONS["--hyperbolic" in arguments]["parameters"]:
+    description = DESCRIPTIONS["--hyperbolic" in arguments]
+    for parameter in description["parameters"]:
         add_parameter(group, parameter)
-    options = parser.parse_args(arguments)
-    names = {parameter["name"] for parameter in DESCRIPTIONS[options.hyperbolic]["parameters"]}
+    options, others = parser.parse_known_args(arguments)
+    for word in others:
+        option = word.partition("=")[0]
+        name = re.sub("^(no_)?", "", option.lstrip("-").replace("-", "_"))
+        parser.error(f"There is no option {option}: {meant(name, description)}."
+                     if word.startswith("--") else f"There is no place for {word!r}.")
+    names = {parameter["name"] for parameter in description["parameters"]}
     options.parameters = {name: value for name, value in vars(options).items() if name in names}
     return parser, options
 

@@ -87,13 +87,23 @@ def _number(value):
 
 # What other unwrappers call it.
 _ELSEWHERE = {
-    "padding": "chart_margin", "margin": "chart_margin", "island_margin": "chart_margin",
-    "gutter": "chart_margin", "islands": "charts", "max_charts": "charts", "pack": "charts",
-    "max_stretch": "cone_distortion", "stretch": "finish", "fill_holes": "holes",
-    "resolution": "texture_size", "bake": "carry_texture", "texture": "carry_texture",
-    "weld": "join_vertices", "timeout": "time_limit"}
+    "margin": "padding", "island_margin": "padding", "gutter": "padding", "pack_margin": "padding",
+    "islands": "charts", "max_charts": "charts", "pack": "charts", "max_stretch": "cone_distortion",
+    "stretch": "finish", "fill_holes": "holes", "resolution": "texture_size", "bake": "carry_texture",
+    "texture": "carry_texture", "weld": "join_vertices", "timeout": "time_limit",
+    "angle_limit": "sharp_angle", "hard_angle": "sharp_angle", "scale_to_bounds": "normalize_uv"}
 
 _READ = {"bool": operator.index, "int": operator.index, "float": _number, "file": _file}
+
+
+def meant(name, description):
+    """What to give in place of a parameter that there is none of."""
+    known = [p["name"] for p in description["parameters"]]
+    here = _ELSEWHERE.get(name)
+    if name == "options":
+        return "its names are parameters of their own here"
+    return description["renamed"].get(name) or (
+        f"it is {here!r} here" if here in known else nearest(name, known))
 
 
 def checked(function, description, given):
@@ -102,9 +112,7 @@ def checked(function, description, given):
     values = {}
     for name, value in given.items():
         if name not in known:
-            here = _ELSEWHERE.get(name)
-            meant = f"it is {here!r} here" if here in known else nearest(name, list(known))
-            raise TypeError(f"{function}() has no parameter {name!r}: {meant}")
+            raise TypeError(f"{function}() has no parameter {name!r}: {meant(name, description)}")
         kind = known[name]["type"]
         value = value.item() if hasattr(value, "item") else value  # of numpy
         try:

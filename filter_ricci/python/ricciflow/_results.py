@@ -89,6 +89,9 @@ EUCLIDEAN_RESULTS = \
  'occupancy': ('float',
                'packing efficiency: fraction of the unit square (without normalize_uv, of the '
                'square around all charts) that the charts cover'),
+ 'padding_pixels': ('float',
+                    'padding between charts and to the border of that square, in pixels of '
+                    'texture_size'),
  'capped_holes': ('int', 'boundary loops closed for the flow'),
  'overlapping_charts': ('int', 'charts with faces that overlap in the stored floats'),
  'overlapping_faces': ('int', 'faces that overlap another one, in their own chart or not'),

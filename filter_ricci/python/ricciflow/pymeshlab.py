@@ -102,9 +102,18 @@ def _refusal(problem):
     return (InvalidValue if text.startswith("The value ") else Refused)(text)
 
 
+def _in_dialog(number, parameters):
+    """Parameters as the plugin has them: the rare ones are one text."""
+    rare = [p["name"] for p in DESCRIPTIONS[number]["parameters"] if p["place"] == "options"]
+    options = "; ".join(f'{name}="{parameters[name]}"' for name in rare if name in parameters)
+    shown = {name: value for name, value in parameters.items() if name not in rare}
+    return {**shown, "options": options} if options else shown
+
+
 def _run_plugin(number, mesh_set, parameters, tell):
     """Results, log, and warnings."""
     log, messages = [], []
+    parameters = _in_dialog(number, parameters)
 
     def run(listener):
         def receive(percent, text):
@@ -382,7 +391,8 @@ def _run_arrays(number, mesh_set, given_mesh, parameters, progress):
         raise InvalidValue(str(problem)) from None
     mesh, texture = mesh_set.current_mesh(), parameters.get("carry_texture", "")
     label = mesh.label()
-    if parameters.get("flat_layer") and mesh.textures() and not texture:
+    flat = parameters.get("flat_layer") or "Flat" in parameters.get("layers", "")
+    if flat and mesh.textures() and not texture:
         messages.append("The flat layer has no texture: PyMeshLab gives no program the means to put that "
                         "of the mesh on it.")
     if _stays(mesh, outputs):

@@ -79,6 +79,9 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::Epsilon:
 		return "The requested curvature error must be greater than 0 radians, not " +
 			   number(e.value);
+	case InvalidOption::SharpAngle:
+		return "The angle of sharp edges must be greater than 0 and at most pi, not " +
+			   number(e.value) + " radians";
 	case InvalidOption::ConeCount:
 		return "The number of cones must be 0 or more, not " + number(e.value);
 	case InvalidOption::ConeDistortion:
@@ -92,14 +95,11 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::ChartMargin:
 		return "The margin between charts must be between 0 and " + number(e.bound) + ", not " +
 			   number(e.value);
-	case InvalidOption::ChartMarginTooWide:
-		return "A margin of " + number(e.value) + " leaves no room for " + std::to_string(e.count) +
-			   " charts";
 	case InvalidOption::WithoutFlips:
 		return "The common refinement and capped holes need intrinsic flips";
 	case InvalidOption::WithoutPositions:
 		return "Automatic corners of a rectangle, edge swaps, the common refinement, "
-			   "hidden seams, quarter "
+			   "hidden seams, sharp edges, quarter "
 			   "turns and the sphere need positions, but the surface is given by edge lengths";
 	case InvalidOption::HyperbolicMethod:
 		return "The hyperbolic flow has no edge swaps and no Thurston packing";

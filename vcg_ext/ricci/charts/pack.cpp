@@ -90,6 +90,7 @@ struct Packing
 };
 
 /// By boxes alone.
+/// \return without motions where they do not fit with the margin
 Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxes& placeBoxes)
 {
 	// The margin is a share of a square that grows with the margin.
@@ -97,7 +98,7 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 	double size = 0.0;
 	for (int attempt = 0; attempt == 0 || packing.padding < margin * size; ++attempt) {
 		if (attempt == kMaxAttempts || !marginsMayFit(boxes.size(), margin))
-			throw InvalidOption(InvalidOption::ChartMarginTooWide, margin, 0.0, boxes.size());
+			return {};
 		packing = {};
 		packing.padding = (1.0 + kMarginSpare) * margin * size;
 		const std::vector<Point2> shift = placeBoxes(boxes, packing.padding);
@@ -270,26 +271,12 @@ void requireFloats(const Array<Point2>& places)
 		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
 
-} // namespace
-
-void checkChartMargin(double margin)
+/// packCharts() into the unit square, without cuts.
+void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	if (!(margin >= 0.0 && margin <= kMaxChartMargin))
-		throw InvalidOption(InvalidOption::ChartMargin, margin, kMaxChartMargin);
-}
-
-bool marginsMayFit(std::size_t charts, double margin)
-{
-	const double free = 1.0 - margin;
-	return static_cast<double>(charts) * margin * margin <= free * free;
-}
-
-void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
-{
-	checkChartMargin(options.chartMargin);
 	const auto triangles = map.mesh.trianglesByChart(map.charts.size());
 	std::vector<char> isUpright(triangles.size(), 0);
-	if (turns == ChartTurns::Free && options.turns != ChartTurns::None && options.normalizeUV)
+	if (turns == ChartTurns::Free && options.turns != ChartTurns::None)
 		isUpright = turnUpright(triangles, map.mesh);
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	// The square that holds all has this side at least.
@@ -307,15 +294,11 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 				InvalidOption::BoxPlaces, static_cast<double>(places.size()), 0.0, some.size());
 		return places;
 	};
-	Packing packing = packBoxes(boxes, options.chartMargin, placeBoxes);
-	if (!options.normalizeUV) {
-		if (boxes.size() == 1)
-			packing.motions.front().shift = {0.0, 0.0};
-		place(packing.motions, boxes, map);
-		requireFloats(map.mesh.place);
-		map.report.occupancy = coveredArea(map.mesh) / (packing.side() * packing.side());
-		return;
-	}
+	double margin = options.chartMargin;
+	Packing packing = packBoxes(boxes, margin, placeBoxes);
+	while (packing.motions.empty())
+		packing = packBoxes(boxes, margin *= 0.5, placeBoxes);
+	map.report.margin = margin;
 	const ChartTurns mayTurn = std::min(turns, options.turns);
 	if (mayTurn != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && (isThin.front() || options.turns == ChartTurns::Quarter))) {
@@ -327,8 +310,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 					  {map.mesh, triangles, boxes, isThin, isUpright, packing.side(), padding},
 					  placeBoxes,
 					  mayTurn);
-		const double share =
-			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
+		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
 		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
 			packing = std::move(turned);
@@ -343,9 +325,10 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	map.report.occupancy = coveredArea(map.mesh);
 }
 
+/// packCharts() into the unit square, with cuts.
 void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	packCharts(map, options, turns);
+	packIntoSquare(map, options, turns);
 	if (std::min(turns, options.turns) == ChartTurns::None)
 		return;
 	const double area = map.mesh.area();
@@ -370,14 +353,10 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		if (!best)
 			best.emplace(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report);
 		cutChart(*cut, turns == ChartTurns::Free, map);
-		try {
-			packCharts(map, options, turns);
-		}
-		catch (const InvalidOption& e) {
-			if (e.problem != InvalidOption::ChartMarginTooWide)
-				throw;
+		const double margin = map.report.margin;
+		packIntoSquare(map, options, turns);
+		if (map.report.margin < margin)
 			break; // there is no room for one chart more
-		}
 		++vain;
 		const double reached = worth(map);
 		loss += std::max(most - reached, 0.0);
@@ -397,6 +376,45 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 			"Cuts for packing stopped at " + std::to_string(kMaxCuts) +
 			": more cuts could still fill slightly more of the square.");
 	}
+}
+
+} // namespace
+
+void checkChartMargin(double margin)
+{
+	if (!(margin >= 0.0 && margin <= kMaxChartMargin))
+		throw InvalidOption(InvalidOption::ChartMargin, margin, kMaxChartMargin);
+}
+
+bool marginsMayFit(std::size_t charts, double margin)
+{
+	const double free = 1.0 - margin;
+	return static_cast<double>(charts) * margin * margin <= free * free;
+}
+
+void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut)
+{
+	checkChartMargin(options.chartMargin);
+	const Array<Point2> before = map.mesh.place;
+	const double area = coveredArea(map.mesh);
+	if (mayCut)
+		packWithCuts(map, options, turns);
+	else
+		packIntoSquare(map, options, turns);
+	if (options.normalizeUV)
+		return;
+	if (map.charts.size() == 1) {
+		map.mesh.place = before;
+		packIntoSquare(map, options, ChartTurns::None);
+	}
+	const double covered = coveredArea(map.mesh),
+				 scale = covered > 0.0 ? std::sqrt(area / covered) : 1.0;
+	for (Point2& p : map.mesh.place)
+		p *= scale;
+	for (Chart& chart : map.charts)
+		for (Point2* p : {&chart.box.min, &chart.box.max})
+			*p *= scale;
+	requireFloats(map.mesh.place);
 }
 
 void placeDisks(Parametrization& map)

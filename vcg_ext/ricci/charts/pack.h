@@ -20,27 +20,25 @@ void checkChartMargin(double margin);
 /// False if so many charts of any extent cannot keep \p margin, by the area of the margins alone.
 bool marginsMayFit(std::size_t charts, double margin);
 
-/// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
-/// normalizeUV the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
-/// Without it the charts keep their scale, and a single chart keeps its place. A chart with a side that
-/// may be too short for triangles that have to be given a height (repairInFloats()) gets a wider box.
-/// Fills Chart::box.
+/// Packs the charts into the unit square: places their bounding boxes beside each other, and scales the smallest square
+/// round all boxes with their margins. A chart with a side that may be too short for triangles that have to be given a
+/// height (repairInFloats()) gets a wider box. Where so many charts do not fit with the margin, it is halved until they
+/// do. Fills Chart::box, and occupancy and margin of the report.
 ///
-/// With \p normalizeUV charts may be turned, too, as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others in any
-/// way. The largest are placed by their outlines, with the
-/// boxes of the small and the thin ones as one more chart, where the square gets smaller by
-/// kWorthTurning. One chart that is not upright is turned as the smallest square round it lies. The report's occupancy is
-/// set in all cases.
-/// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
-/// InvalidMesh BeyondFloats if coordinates that keep their scale are too large or too small for float,
-/// in which they will be stored
-void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
-
-/// packCharts() into the unit square, with charts cut by findCutForPacking() as long as that is worth it
-/// (kPackingPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
-/// is cut.
-/// \throw what packCharts() does
-void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns turns);
+/// Charts may be turned as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others
+/// in any way. The largest are placed by their outlines, with the boxes of the small and the thin ones as one more
+/// chart, where the square gets smaller by kWorthTurning. One chart that is not upright is turned as the smallest square
+/// round it lies.
+///
+/// With \p mayCut charts are cut by findCutForPacking() as long as that is worth it (kPackingPrice) and each cut brings
+/// kMinRoom besides; until kEnoughCovered is covered. Without turns nothing is cut.
+///
+/// Without PackOptions::normalizeUV all this is scaled back to the size that the charts had. A single chart then is not
+/// turned.
+/// \throw InvalidOption ChartMargin, BoxPlaces; InvalidMesh BeyondFloats if coordinates that keep their scale are too
+/// large or too small for float, in which they will be stored
+void packCharts(
+	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
 /// little is left to win.

@@ -94,9 +94,10 @@ public:
 
 	/// Opens the seams that the caller wants.
 	/// \pre cutEdges()
-	void openSeams()
+	void openSeams(double sharpAngle)
 	{
-		if (m_input.seam.empty() && m_input.map.empty())
+		const bool opensSharp = sharpAngle < kPi;
+		if (m_input.seam.empty() && m_input.map.empty() && !opensSharp)
 			return;
 		markHoles();
 		m_across.assign(m_glued.size(), Corner());
@@ -114,10 +115,21 @@ public:
 				   (jumps(inInput(a), inInput(sameWay ? b : b.next())) ||
 					jumps(inInput(a.next()), inInput(sameWay ? b.next() : b)));
 		};
+		Array<Point3> normals;
+		if (opensSharp)
+			normals = normalsOf(m_positions.values(), m_triangles.values());
+		const auto isSharp = [&](Corner side) {
+			const Corner other = m_glued[side];
+			if (!opensSharp || !other.isValid() || isDiagonal(side) || isDiagonal(other))
+				return false;
+			const bool sameWay = m_triangles[side] == m_triangles[other];
+			const Point3& n = normals[other.face()];
+			return isCrease(normals[side.face()], sameWay ? -1.0 * n : n, std::cos(sharpAngle));
+		};
 		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
 			bool opens = false;
 			if (std::any_of(edge.begin(), edge.end(), [&](Corner side) {
-					return isMarked(side) || mapJumps(edge[0], side);
+					return isMarked(side) || mapJumps(edge[0], side) || isSharp(side);
 				}))
 				for (const Corner side : edge)
 					opens = open(side) || opens;
@@ -345,6 +357,13 @@ private:
 				loops.find(s) != longest[partition.component[s.face()]];
 	}
 
+	/// Whether a side is inside a polygon.
+	bool isDiagonal(Corner side) const
+	{
+		return !m_input.diagonal.empty() &&
+			   m_input.diagonal[positionOf(m_opened.face[positionOf(side.face())])][side.index()];
+	}
+
 	/// Opens a side for a seam.
 	/// \return whether it was glued
 	bool open(Corner side)
@@ -511,13 +530,14 @@ OpenedMesh openMesh(
 	const SurfaceMesh& mesh,
 	std::vector<std::string>& notes,
 	OneSidedCut cut,
-	JoinSplitVertices join)
+	JoinSplitVertices join,
+	double sharpAngle)
 {
 	checkElements(mesh);
 	Opening opening(mesh);
 	opening.cutEdges(join);
 	opening.requireEqualSides();
-	opening.openSeams();
+	opening.openSeams(sharpAngle);
 	opening.cutOneSidedComponents(cut);
 	opening.leaveOutFlatComponents();
 	OpenedMesh opened = opening.result();

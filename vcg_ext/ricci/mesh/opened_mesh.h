@@ -47,7 +47,7 @@ struct OpenedMesh
 	int duplicateFaces = 0; ///< faces with the vertices of one before them
 	int oneSidedComponents = 0; ///< cut along one-sided loops
 
-	int seamEdges = 0;            ///< edges opened because SurfaceMesh::seam marks them
+	int seamEdges = 0;            ///< edges opened because they are marked, or sharp
 	double seamLength = 0.0;      ///< of these
 	int seamEdgesAdded = 0;       ///< edges by which seams of one edge alone were lengthened
 	double seamLengthAdded = 0.0; ///< of these
@@ -76,7 +76,8 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted);
 /// Joins vertices that are split (findSplitVertices()) as \p join says, then cuts a triangle soup open, so that every
 /// triangle with an area can be mapped (after the cutting of [Gueziec et al. 2001]): edges with more than two faces by
 /// glueFaces(), vertices with more than one fan into one copy for each, one-sided components as \p cut says. Before
-/// the last of these, all sheets are opened along SurfaceMesh::seam and the jumps of SurfaceMesh::map. A seam of one
+/// the last of these, all sheets are opened along SurfaceMesh::seam, the jumps of SurfaceMesh::map and the edges above
+/// \p sharpAngle (FlowOptions) that are not inside polygons. A seam of one
 /// edge that touches neither another nor a boundary goes on along the edge that leads straightest on: else both its
 /// sides would have the same two vertices, and lie on each other in the plane. Left out are faces that use a vertex
 /// twice, and components that have no area. What was done is told in \p notes.
@@ -87,7 +88,8 @@ OpenedMesh openMesh(
 	const SurfaceMesh& mesh,
 	std::vector<std::string>& notes,
 	OneSidedCut cut = OneSidedCut::Shortest,
-	JoinSplitVertices join = JoinSplitVertices::Never);
+	JoinSplitVertices join = JoinSplitVertices::Never,
+	double sharpAngle = kPi);
 
 /// Adds sentences on what openMesh() has done.
 void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std::string>& notes);

@@ -117,6 +117,21 @@ enum class At : char { Between, Crease, Boundary };
 
 } // namespace
 
+Array<Point3>
+normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+{
+	Array<Point3> normals;
+	for (const Triangle& t : triangles)
+		normals.push_back(normal(
+			positions[positionOf(t[0])], positions[positionOf(t[1])], positions[positionOf(t[2])]));
+	return normals;
+}
+
+bool isCrease(const Point3& m, const Point3& n, double cosine)
+{
+	return dot(m, m) > 0.0 && dot(n, n) > 0.0 && dot(m, n) < cosine;
+}
+
 Creases creases(
 	const std::vector<Point3>& positions,
 	const std::vector<Triangle>& triangles,
@@ -124,9 +139,7 @@ Creases creases(
 	double angle)
 {
 	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
-	Array<Point3> normals;
-	for (const Triangle& t : triangles)
-		normals.push_back(normal(at(t[0]), at(t[1]), at(t[2])));
+	const Array<Point3> normals = normalsOf(positions, triangles);
 	Creases result;
 	result.sides.resize(triangles.size(), {0, 0, 0});
 	Array<At> where(static_cast<int>(positions.size()), At::Between);
@@ -140,8 +153,7 @@ Creases creases(
 		};
 		if (edge.size() != 2)
 			return mark(At::Boundary);
-		const Point3 &m = normals[edge[0].face()], &n = normals[edge[1].face()];
-		if (!(dot(m, m) > 0.0 && dot(n, n) > 0.0 && dot(m, n) < cosine))
+		if (!isCrease(normals[edge[0].face()], normals[edge[1].face()], cosine))
 			return;
 		result.sides[positionOf(side.face())][side.index()] = 1;
 		++result.edges;

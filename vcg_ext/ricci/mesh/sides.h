@@ -36,6 +36,14 @@ private:
 	CornerArray<Corner> m_across; // [side]
 };
 
+/// [triangle] Normals of length 1; 0 where a triangle is too thin to have one.
+Array<Point3>
+normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
+
+/// Whether the surface bends between two triangles with these normals, one of which may be 0, by more than the angle of
+/// this cosine.
+bool isCrease(const Point3& m, const Point3& n, double cosine);
+
 /// The edges at which a surface bends.
 struct Creases
 {
