@@ -130,7 +130,7 @@ STUB = LICENCE + '''\
 """UV-unwraps triangle meshes: conformal maps by the discrete Ricci flow."""
 ''' + MADE + '''
 import os
-from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union, overload
 
 import numpy
 import numpy.typing
@@ -266,7 +266,11 @@ def stub(both):
             ("flatten", "uniformize"), DESCRIPTIONS, ("Flattening", "Uniformization"),
             ("UV-unwraps a mesh: a conformal map into the plane.",
              "Hyperbolic metric of a mesh, in the Poincaré disk.")):
-        parts.append(f"\ndef {name}(\n{own}{stub_parameters(d, '    ')}) -> {kind}:\n"
+        parts.append(f"\n@overload\ndef {name}(\n    mesh: list[MeshLike],\n    *,\n"
+                     "    progress: Union[bool, Callable[[float, str], object], None] = None,\n"
+                     f"    **parameters: Any,\n) -> list[{kind}]:\n"
+                     '    """Several meshes, whose charts share one square."""\n'
+                     f"@overload\ndef {name}(\n{own}{stub_parameters(d, '    ')}) -> {kind}:\n"
                      f'    """{text}\n\n')
         for p in d["parameters"]:
             text = f"{p['name']}: {plain(p['tooltip'])}"

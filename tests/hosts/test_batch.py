@@ -380,6 +380,32 @@ class Batch(unittest.TestCase):
         self.assertEqual({name: self.times()[name] for name in done}, done)
         self.check_solved(names)
 
+    def test_one_atlas(self):
+        """All meshes in one square: no two faces share a texel."""
+        names = ["a.ply", "more/b.ply"]
+        for name, mesh in zip(names, (meshes.torus(), meshes.hill())):
+            self.write(name, mesh)
+        code, text = self.batch("--one-atlas", "--padding", "2", "--texture-size", "256")
+        self.assertEqual(code, 0, text)
+        self.assertRegex(text, r"\d charts?, .* no flips, .*out\n")
+        self.check_solved(names, genus=None)
+        owner = {}
+        for name in names:
+            mesh = meshes.read_ply(os.path.join(self.out, self.stems[name] + ".ply"))
+            for wedge in mesh.wedges:
+                for x, y, _ in textures.texels_in(wedge, 256, 256):
+                    self.assertEqual(owner.setdefault((x, y), name), name)
+        self.assertEqual(set(owner.values()), set(names))
+        code, text = self.batch("--one-atlas", "--quiet")
+        self.assertEqual((code, text), (0, ""))
+
+    def test_one_atlas_of_one_file(self):
+        self.write("a.ply", meshes.torus())
+        self.meshes = os.path.join(self.meshes, "a.ply")
+        code, text = self.batch("--one-atlas")
+        self.assertEqual(code, 2)
+        self.assertIn("--one-atlas is for a folder", text)
+
 
 if __name__ == "__main__":
     common.main()

@@ -30,6 +30,7 @@ import zipfile
 
 import common
 import meshes
+import textures
 
 try:
     from matplotlib import image
@@ -937,6 +938,8 @@ class Functions(unittest.TestCase):
                                  ("flatten([[0.0, 0, 0]], [[0, 0, 0]], progress=True).layers['flat']", 0),
                                  ("flatten('x.ply', progress=lambda share, what: print(share))", 0),
                                  ("flatten('x.ply', progress=3)", 1),
+                                 ("flatten(['x.ply', 'y.ply'])[0].charts + 1", 0),
+                                 ("flatten(['x.ply', 'y.ply']).charts", 1),
                                  ("xatlas.parametrize([[0.0, 0, 0]], [[0, 0, 0]])[2].max()", 0),
                                  ("uniformize('x.ply').hyperbolic_area.real", 0)):
                 with open(program, "w", encoding="utf-8") as source:
@@ -944,6 +947,90 @@ class Functions(unittest.TestCase):
                 os.environ["MYPYPATH"] = os.path.join(common.BUILD, "python")
                 out, _, code = api.run(["--ignore-missing-imports", "--cache-dir", folder, program])
                 self.assertEqual(code, errors, line + "\n" + out)
+
+
+class Together(unittest.TestCase):
+    """Several meshes in one square."""
+
+    @staticmethod
+    def densities(result):
+        """Area in the square over the area in space, of each face."""
+        a, b = (result.uv[:, k] - result.uv[:, 0] for k in (1, 2))
+        corners = result.vertices[result.faces]
+        sides = corners[:, 1:] - corners[:, :1]
+        space = numpy.linalg.norm(numpy.cross(sides[:, 0], sides[:, 1]), axis=1)
+        return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / space
+
+    def test_one_square(self):
+        """As one mesh of three components: charts lie beside each other, and isometric ones at one scale."""
+        parts = [arrays(mesh) for mesh in (meshes.plane(5), meshes.annulus(), meshes.plane(3))]
+        results = flatten([(3.0 ** i * vertices, faces) for i, (vertices, faces) in enumerate(parts)])
+        first = numpy.cumsum([0] + [len(vertices) for vertices, _ in parts])
+        whole = flatten(numpy.concatenate([3.0 ** i * part[0] for i, part in enumerate(parts)]),
+                        numpy.concatenate([part[1] + start for part, start in zip(parts, first)]))
+        self.assertTrue(numpy.array_equal(numpy.concatenate([r.uv for r in results]), whole.uv))
+        self.assertEqual(whole.overlapping_faces, 0)
+        density = self.densities(results[0])[0]
+        for i, (result, (vertices, faces)) in enumerate(zip(results, parts)):
+            self.assertTrue(numpy.array_equal(result.faces, faces))
+            self.assertTrue(numpy.array_equal(result.vertices, 3.0 ** i * vertices))
+            self.assertEqual(result.quality.shape, (len(vertices),))
+            self.assertLess(numpy.abs(self.densities(result) / density - 1).max(), 1e-4)  # floats
+            self.assertEqual(result.charts, whole.charts)
+
+    def test_a_pair_is_one_mesh(self):
+        vertices, faces = arrays(meshes.hill())
+        pair = flatten([vertices, faces])
+        self.assertTrue(numpy.array_equal(pair.uv, flatten(vertices, faces).uv))
+        pair = flatten([vertices.tolist(), faces.tolist()])
+        self.assertEqual(len(pair.faces), len(faces))
+
+    def test_refinement(self):
+        """Vertices that are added go to the mesh whose faces have them."""
+        parts = [arrays(meshes.swirled(meshes.plane(12))), arrays(meshes.plane(4))]
+        results = flatten(parts, output_triangulation="Common refinement", target_curvature="Disk")
+        self.assertGreater(len(results[0].vertices), len(parts[0][0]))
+        for result, (vertices, faces) in zip(results, parts):
+            self.assertTrue(numpy.array_equal(result.vertices[:len(vertices)], vertices))
+            self.assertEqual(set(result.faces.ravel()), set(range(len(result.vertices))))
+            space = numpy.abs(numpy.cross(*(result.vertices[result.faces[:, k]] -
+                                            result.vertices[result.faces[:, 0]] for k in (1, 2)))[:, 2])
+            own = numpy.abs(numpy.cross(*(vertices[faces[:, k]] - vertices[faces[:, 0]]
+                                          for k in (1, 2)))[:, 2])
+            self.assertAlmostEqual(space.sum() / own.sum(), 1.0, places=9)
+
+    def test_pictures(self):
+        """A texture for all: each mesh shows its own picture, one without any its colour."""
+        with tempfile.TemporaryDirectory() as folder:
+            paths = []
+            for name, colour in (("red", (255, 0, 0)), ("blue", (0, 0, 255))):
+                textures.write_png(os.path.join(folder, name + ".png"),
+                                   textures.Image([[colour] * 8 for _ in range(8)], 8))
+                path = os.path.join(folder, name + ".ply")
+                mesh = meshes.plane(3)
+                textures.write_ply(path, mesh, [[mesh.vertices[v][:2] for v in face]
+                                                for face in mesh.faces], [name + ".png"])
+                paths.append(path)
+            plain = arrays(meshes.plane(2))
+            texture = os.path.join(folder, "all.png")
+            results = flatten([paths[0], plain, paths[1]], carry_texture=texture, texture_size=64)
+            image_of_all = textures.read_png(texture)
+            for result, wanted in zip(results, ((1, 0, 0), (1, 1, 1), (0, 0, 1))):
+                for wedge in result.uv.tolist():
+                    u, v = (sum(corner[k] for corner in wedge) / 3 for k in (0, 1))
+                    texel = image_of_all.rows[int((1 - v) * 64)][int(u * 64)][:3]
+                    self.assertEqual(tuple(c / image_of_all.top for c in texel), wanted)
+            for result, name in zip(results, ("red.obj", "plain.obj", "blue.obj")):
+                result.save(os.path.join(folder, name))
+                again = flatten(os.path.join(folder, name), charts="As they are, only packed")
+                self.assertEqual(len(again.faces), len(result.faces))
+
+    def test_refused(self):
+        one = arrays(meshes.hill())
+        with self.assertRaisesRegex(TypeError, "selected is for one mesh"):
+            flatten([one, one], selected=[1])
+        with self.assertRaises(ricciflow.Refused):
+            flatten([one, arrays(meshes.with_nan(meshes.hill()))])
 
 
 class Xatlas(unittest.TestCase):

@@ -5,6 +5,7 @@
     python -m ricciflow scan.ply scan.obj --target-curvature Disk --report scan.html
     python -m ricciflow meshes out --workers 8
     python -m ricciflow meshes out --scheduler tcp://host:8786
+    python -m ricciflow meshes out --one-atlas --carry-texture out/atlas.png
 
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT, which may be
 the folder of the meshes, gets for meshes/a/b.off the files a/b.ply and a/b.json, a/b.html for --report
@@ -13,6 +14,9 @@ another mesh a/b), and at the end results.csv with a row for each mesh and failu
 without a result. An OUT that is a file is replaced, even if it is IN. A run that was interrupted goes on
 where it stopped; a mesh runs again where mesh, parameters or library have changed. With a cluster, this
 package and both folders have to be on every machine, the folders at the same path.
+
+With --one-atlas the charts of all meshes of the folder share one square at one scale, for one texture. It is
+one run in this process, from the beginning each time.
 
 Layers (--layers "Flat mesh" and others) are files beside OUT: scan.flat.ply.
 
@@ -26,10 +30,14 @@ import importlib.util
 import os
 import re
 import sys
+import time
+import warnings
 
 from . import __version__, _batch
+from ._errors import RicciWarning, Refused
 from ._filters import DESCRIPTIONS, choice, meant, plain
 from ._loading import mesh_endings
+from ._parametrize import flatten, uniformize
 from .files import WRITES
 
 
@@ -85,6 +93,8 @@ def parse(arguments):
                         help="of the results of a folder. Default: ply")
     parser.add_argument("--hyperbolic", action="store_true",
                         help="the hyperbolic filter, whose parameters --hyperbolic --help shows")
+    parser.add_argument("--one-atlas", action="store_true",
+                        help="all meshes of a folder in one square, for one texture")
     parser.add_argument("--timeout", type=float, default=3600, help="seconds for one mesh")
     parser.add_argument("--workers", type=count, default=os.cpu_count(), help="meshes at a time")
     parser.add_argument("--scheduler", help="address of a Dask scheduler, or 'local' for Dask here")
@@ -222,14 +232,17 @@ def folder(parser, options):
                          "another OUT.")
     os.makedirs(out, exist_ok=True)
     check_writable(out)
-    common = _batch.fingerprint(options.hyperbolic, options.format, options.parameters)
+    settings = (options.hyperbolic, options.format, options.parameters)
+    common = _batch.fingerprint(*settings, *(["one atlas", names] if options.one_atlas else ()))
     marks = {name: _batch.mark_of(os.path.join(source, name), common) for name in names}
     records = {name: _batch.record_path(out, stem) for name, stem in stems.items()}
     jobs = [make_job(options, os.path.join(source, name), name, targets[name], records[name],
                      marks[name], [_batch.record_path(out, stem)
                                    for stem in (name, os.path.splitext(name)[0])])
-            for name in names if not _batch.is_done(
+            for name in names if options.one_atlas or not _batch.is_done(
                 _batch.read_record(records[name]), name, marks[name], options.retry)]
+    if options.one_atlas:
+        return atlas(options, names, jobs)
     if not options.quiet:
         print(f"{len(names)} {'mesh' if len(names) == 1 else 'meshes'}, {len(names) - len(jobs)} done "
               f"before, {len(jobs)} to run", flush=True)
@@ -252,6 +265,38 @@ def folder(parser, options):
     return 1 if failures else 0
 
 
+def atlas(options, names, jobs):
+    """Runs all meshes of a folder as one. Its exit."""
+    parameters = make_job(options, ".", "", options.out)["parameters"]
+    started = time.monotonic()
+    solve = uniformize if options.hyperbolic else flatten
+    record = {"mesh": f"{len(names)} meshes"}
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", RicciWarning)
+        try:
+            results = solve([job["mesh"] for job in jobs], progress=not options.quiet and
+                            sys.stderr.isatty(), **parameters)
+            for job, result in zip(jobs, results):
+                os.makedirs(os.path.dirname(job["target"]), exist_ok=True)
+                result.save(job["target"])
+        except (Refused, ValueError) as problem:
+            print(f"refused: {problem}", file=sys.stderr)
+            return 1
+    record.update(seconds=time.monotonic() - started, results=results[0].results,
+                  messages=[str(one.message) for one in said])
+    warn(record)
+    if not options.quiet:
+        print(sentence(record, options.out))
+    for job in jobs:
+        _batch.write_record(job["record"], {
+            "mesh": job["name"], "state": "solved", "fingerprint": job["fingerprint"],
+            "seconds": round(record["seconds"], 3), "messages": record["messages"],
+            "files": [os.path.basename(job["target"])],
+            "results": {key: getattr(value, "tolist", lambda v=value: v)()
+                        for key, value in record["results"].items()}})
+    return 0
+
+
 def runner(options):
     if not options.scheduler:
         return _batch.here(options.workers)
@@ -265,6 +310,8 @@ def solve(parser, options):
         return folder(parser, options)
     if not os.path.isfile(options.mesh):
         parser.error(f"There is no file or folder {options.mesh}.")
+    if options.one_atlas:
+        parser.error("--one-atlas is for a folder of meshes.")
     if not options.out.lower().endswith(WRITES):
         parser.error(f"OUT must end in {' or '.join(WRITES)}.")
     return one_mesh(options)

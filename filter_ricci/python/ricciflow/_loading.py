@@ -38,6 +38,11 @@ class Given:
     def faces(self):
         return self.arrays["faces"]
 
+    @property
+    def is_split(self):
+        """Whether its file repeats vertices along edges, as the format has it."""
+        return self.file is not None and self.file.split
+
     def read_pictures(self, are_drawn):
         """Pairs of names and arrays; without arrays where the run draws nothing. One that cannot be
         read is a Refused."""
@@ -179,6 +184,52 @@ def _by_trimesh(path):
         return Given(*checked_arrays(mesh.vertices, mesh.faces), os.path.basename(path))
     except Exception as problem:  # its readers raise anything
         raise OSError(f"{path} cannot be read by trimesh: {problem}") from None
+
+
+# What a mesh has that lacks an array which others have.
+_ABSENT = {"faux": False, "uv": 0.0, "picture_of_face": -1, "vertex_colors": 255, "face_colors": 255}
+
+
+def are_several(mesh):
+    """Whether it is a list of meshes, not vertices and faces."""
+    def is_mesh(item):
+        return (isinstance(item, (str, os.PathLike, Given)) or hasattr(item, "vertices") or
+                isinstance(item, (tuple, list)) and len(item) == 2 and numpy.ndim(item[0]) == 2)
+    return isinstance(mesh, list) and len(mesh) > 0 and all(is_mesh(item) for item in mesh)
+
+
+def together(meshes):
+    """One mesh of several."""
+    def joined(name):
+        present = next(mesh.arrays[name] for mesh in meshes if mesh.arrays.get(name) is not None)
+        kind, shape = present.dtype, present.shape[1:]
+        parts, pictures = [], 0
+        for mesh in meshes:
+            values = mesh.arrays.get(name)
+            if values is None:
+                count = len(mesh.vertices if name == "vertex_colors" else mesh.faces)
+                is_shown = name == "picture_of_face" and mesh.pictures  # the first one, unless it is said
+                values = numpy.full((count, *shape), 0 if is_shown else _ABSENT[name], kind)
+            if name == "picture_of_face":
+                values = numpy.where(values < 0, values, values + pictures)
+            pictures += len(mesh.pictures)
+            parts.append(values)
+        return numpy.concatenate(parts)
+    first = numpy.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    whole = Given(numpy.concatenate([mesh.vertices for mesh in meshes]),
+                  numpy.concatenate([mesh.faces + numpy.int32(start)
+                                     for mesh, start in zip(meshes, first)]),
+                  f"{len(meshes)} meshes")
+    for name in _ABSENT:
+        if any(mesh.arrays.get(name) is not None for mesh in meshes):
+            whole.arrays[name] = joined(name)
+    if "picture_of_face" not in whole.arrays and len(meshes) > 1 and any(m.pictures for m in meshes):
+        meshes[0].arrays["picture_of_face"] = numpy.full(
+            len(meshes[0].faces), 0 if meshes[0].pictures else -1, numpy.int32)
+        whole.arrays["picture_of_face"] = joined("picture_of_face")
+    whole.pictures = [picture for mesh in meshes for picture in mesh.pictures]
+    whole.messages = [message for mesh in meshes for message in mesh.messages]
+    return whole
 
 
 def host_of(mesh):

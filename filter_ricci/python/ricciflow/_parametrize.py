@@ -260,7 +260,48 @@ def run_arrays(number, given, parameters, progress):
     return outputs, given.messages + log, given.messages + messages
 
 
+def of_one(outputs, vertices, faces):
+    """The part of the outputs that belongs to one of several meshes: these rows of what the run was given. What
+    it has added, such as vertices of a refinement, belongs to the faces that have it."""
+    origin = outputs["face_of_origin"]
+    chosen = numpy.flatnonzero((origin >= faces.start) & (origin < faces.stop))
+    used = numpy.unique(outputs["faces"][chosen])
+    rows = numpy.concatenate((numpy.arange(vertices.start, vertices.stop),
+                              used[(used < vertices.start) | (used >= vertices.stop)]))
+    number = numpy.zeros(len(outputs["vertices"]), numpy.int32)
+    number[rows] = numpy.arange(len(rows))
+    own = dict(outputs, faces=number[outputs["faces"][chosen]], uv=outputs["uv"][chosen],
+               face_of_origin=origin[chosen] - origin.dtype.type(faces.start))
+    for key in ("vertices", "quality", "log_radius", "target_curvature"):
+        own[key] = outputs[key][rows]
+    return own
+
+
+def _solve_together(function, meshes, progress, keywords, parameters):
+    """One run for several meshes, whose charts share the square."""
+    number, kind = _KINDS[function]
+    parameters = checked(function, DESCRIPTIONS[number], parameters)
+    for name, value in keywords.items():
+        if value is not None:
+            raise TypeError(f"{name} is for one mesh: of several meshes, each has its own vertices and faces")
+    given = [_loading.given(mesh, None) for mesh in meshes]
+    if any(mesh.is_split for mesh in given):
+        parameters.setdefault("join_vertices", "Always")
+    outputs, log, messages = run_arrays(number, _loading.together(given), parameters, progress)
+    for message in messages:
+        warnings.warn(message, RicciWarning, stacklevel=3)
+    results, vertex, face = [], 0, 0
+    for mesh in given:
+        end = vertex + len(mesh.vertices), face + len(mesh.faces)
+        results.append(kind(of_one(outputs, slice(vertex, end[0]), slice(face, end[1])), log, messages,
+                            mesh.name, mesh.file, parameters.get("carry_texture", "")))
+        vertex, face = end
+    return results
+
+
 def _solve(function, mesh, faces, progress, keywords, parameters):
+    if faces is None and _loading.are_several(mesh):
+        return _solve_together(function, mesh, progress, keywords, parameters)
     number, kind = _KINDS[function]
     parameters = checked(function, DESCRIPTIONS[number], parameters)
     host = _loading.host_of(mesh) if faces is None else None
@@ -269,7 +310,7 @@ def _solve(function, mesh, faces, progress, keywords, parameters):
     else:
         given = _loading.given(mesh, faces)
         with_keywords(given, **keywords, parameters=parameters)
-        if given.file is not None and given.file.split:
+        if given.is_split:
             parameters.setdefault("join_vertices", "Always")
         outputs, log, messages = run_arrays(number, given, parameters, progress)
         result = kind(outputs, log, messages, given.name, given.file,
@@ -299,7 +340,9 @@ def uniformize(mesh, faces=None, *, selected=None, curvature=None, uv=None, sele
 _INPUT = """
 
 mesh : a path; vertices and then faces, or both as a pair; an object that has them, such as one of
-    trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
+    trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates. A list of
+    meshes: their charts share one square at one scale, and a list is returned, one for each mesh, whose
+    results, layers and log are those of all together
 faces : indices of vertices, three of each face, where `mesh` is the vertices
 selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle;
     target_curvature then is 'Cones at selected vertices', unless it is given
