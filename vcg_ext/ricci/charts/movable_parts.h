@@ -330,8 +330,8 @@ private:
 	Array<char> m_isProper;   // [triangle] counter-clockwise
 	Array<int> m_part;        // [triangle]
 	Array<int> m_group;       // [triangle]
-	Array<ByBox>
-		m_origins; // parts in the beginning: those that lie over each other are not looked through together
+	/// Parts in the beginning: those that lie over each other are not looked through together.
+	Array<ByBox> m_origins;
 	Array<Group> m_groups;
 	Array<std::vector<int>> m_groupsOf; // [part]
 	Array<double> m_area;               // [part]
