@@ -3,7 +3,6 @@
 
 #include "base/numbers.h"
 #include "base/tolerances.h"
-#include "cut/cut_graph.h"
 #include "measure/invariants.h"
 
 #include <algorithm>

@@ -22,7 +22,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace ricci {

@@ -4,14 +4,12 @@
 #include "base/memory_estimate.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "error.h"
 #include "flatten_steps.h"
 #include "hyperbolic/hyperbolic_target.h"
 #include "mesh/triangulation.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <numeric>

@@ -4,7 +4,6 @@
 #include "../base/graphs.h"
 #include "../base/task.h"
 #include "../numerics/min_cut.h"
-#include "dual_graph.h"
 
 #include <algorithm>
 #include <cstddef>

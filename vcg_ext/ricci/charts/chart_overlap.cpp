@@ -2,17 +2,13 @@
 #include "chart_overlap.h"
 
 #include "../base/convex_hull.h"
-#include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

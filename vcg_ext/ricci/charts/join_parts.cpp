@@ -356,7 +356,7 @@ private:
 	std::vector<int> freeAt(int part, const Place& place)
 	{
 		std::vector<int> covering, free;
-		const MovableParts::Groups near = m_parts.groupsNear(part, place);
+		const MovableParts::ByBox near = m_parts.groupsNear(part, place);
 		const auto take = [&](int f) {
 			if (m_parts.partOf(f) == part && !std::exchange(m_isMarked[f], 1))
 				(m_parts.covers(f, place.motion, near) ? covering : free).push_back(f);

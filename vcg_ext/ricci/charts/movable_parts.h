@@ -134,15 +134,15 @@ public:
 		return (own[0] == other[1] && own[1] == other[0]) || fits({}, side);
 	}
 
-	/// Groups of triangles of one part, see groupsNear().
-	struct Groups
+	/// Triangles, or groups of them, by the boxes round them.
+	struct ByBox
 	{
 		std::vector<int> numbers;
 		BoxTree tree; ///< of their boxes
 	};
 
 	/// The groups of the other part that come near \p part at its new place: others it does not cover.
-	Groups groupsNear(int part, const Place& place) const
+	ByBox groupsNear(int part, const Place& place) const
 	{
 		Box2 moved;
 		for (const int group : m_groupsOf[part]) {
@@ -167,7 +167,7 @@ public:
 	template<class IsEnough>
 	bool covering(int part, const Place& place, const IsEnough& isEnough) const
 	{
-		const Groups near = groupsNear(part, place);
+		const ByBox near = groupsNear(part, place);
 		if (near.numbers.empty())
 			return false;
 		// Some all over the part first, for neighbours give about the same answer.
@@ -181,7 +181,7 @@ public:
 	}
 
 	/// Whether one triangle covers some of \p near at its new place.
-	bool covers(int triangle, const Motion& motion, const Groups& near) const
+	bool covers(int triangle, const Motion& motion, const ByBox& near) const
 	{
 		return m_isProper[triangle] &&
 			   coveredBy(motion(m_plane[triangle]), near, [](int) { return true; });
@@ -259,13 +259,6 @@ public:
 private:
 	static constexpr std::size_t kStride = 31;
 
-	/// A part as it was in the beginning: parts that lie over each other are not looked through together.
-	struct Origin
-	{
-		std::vector<int> triangles;
-		BoxTree tree; ///< of these
-	};
-
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
@@ -310,15 +303,15 @@ private:
 	}
 
 	template<class IsFound>
-	bool coveredBy(const Triangle2& p, const Groups& groups, const IsFound& isFound) const
+	bool coveredBy(const Triangle2& p, const ByBox& groups, const IsFound& isFound) const
 	{
 		return groups.tree.meetsAny(boxAround(p), [&](int k) {
 			const int group = groups.numbers[positionOf(k)];
 			const int number = m_groups[group].origin;
-			const Origin* origin = number >= 0 ? &m_origins[number] : nullptr;
+			const ByBox* origin = number >= 0 ? &m_origins[number] : nullptr;
 			const BoxTree& tree = origin ? origin->tree : *m_all;
 			return tree.meetsAny(boxAround(m_groups[group].back(p)), [&](int i) {
-				const int g = origin ? origin->triangles[positionOf(i)] : i;
+				const int g = origin ? origin->numbers[positionOf(i)] : i;
 				return m_group[g] == group && m_isProper[g] && overlap(p, m_plane[g], m_touching) &&
 					   isFound(g);
 			});
@@ -337,7 +330,8 @@ private:
 	Array<char> m_isProper;   // [triangle] counter-clockwise
 	Array<int> m_part;        // [triangle]
 	Array<int> m_group;       // [triangle]
-	Array<Origin> m_origins;
+	/// Parts in the beginning: those that lie over each other are not looked through together.
+	Array<ByBox> m_origins;
 	Array<Group> m_groups;
 	Array<std::vector<int>> m_groupsOf; // [part]
 	Array<double> m_area;               // [part]

@@ -5,7 +5,6 @@
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../mesh/triangulation.h"
 #include "../metric/area.h"
 #include "../numerics/sparse_cholesky.h"
 

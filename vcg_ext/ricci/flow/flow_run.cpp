@@ -4,7 +4,6 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../error.h"
 #include "../mesh/flow_domain.h"
 #include "../mesh/normal_coordinates.h"
 #include "../metric/area.h"
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <string>
-#include <utility>
 
 namespace ricci {
 

@@ -112,8 +112,7 @@ private:
 	std::vector<double> presentLoopLengths() const;
 	NotConverged withState(NotConverged error) const;
 
-	const EmbeddedSurface&
-		m_surface; // its vertices and edges have the lowest numbers in its double
+	const EmbeddedSurface& m_surface; // has the lowest numbers of its double
 	const FlowOptions& m_options;
 	FlowProgress& m_progress;
 	NewtonSolver::Surgeon m_surgeon;

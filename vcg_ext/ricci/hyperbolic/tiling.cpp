@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <map>

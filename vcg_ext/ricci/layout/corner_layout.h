@@ -41,7 +41,7 @@ struct SurfaceLayout
 /// The vertices of the surface are those of the end triangulation. That is laid out, open along the
 /// cut, whose edges, pulled tight, run through end triangles. Their normal coordinates tell into which
 /// parts they divide these, and beside which edges of the cut the corners of the parts lie; a part is
-/// a sheet as in end_sheets.h. In the plane, a flow without flips ends on the surface's
+/// a sheet, see EndSheets. In the plane, a flow without flips ends on the surface's
 /// own triangles.
 /// \param isCut 1 on edges of the domain's surface, which they open to a disk
 /// \throw TooLarge if end edges and the cut cross too often, see requireOverlayMemory()

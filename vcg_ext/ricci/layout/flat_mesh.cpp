@@ -7,8 +7,6 @@
 #include "../metric/area.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <utility>
 
 namespace ricci {
 

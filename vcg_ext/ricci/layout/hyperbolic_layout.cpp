@@ -5,8 +5,6 @@
 #include "../metric/area.h"
 #include "planar_layout.h"
 
-#include <vector>
-
 namespace ricci {
 
 namespace {
@@ -38,6 +36,35 @@ ExtendedIsometry turned(const ExtendedIsometry& frame, double length)
 {
 	return frame * ExtendedIsometry::translation(length) * ExtendedIsometry::rotation(kExtendedPi);
 }
+
+/// The point of the disk for which the weighted mean of cosh(distance) to some points is least: the direction
+/// of their weighted mean on the hyperboloid x0^2 - |x|^2 = 1.
+class DiskMean
+{
+public:
+	/// The origin of a frame.
+	void add(double weight, const ExtendedIsometry& frame)
+	{
+		m_x0 += weight * (norm(frame.a) + norm(frame.b));
+		m_x += 2 * weight * (frame.a * frame.b);
+	}
+
+	/// Moves the mean to 0 along the straight line between them. The identity where there is no weight, or the
+	/// points are farther from each other than extended precision can tell.
+	ExtendedIsometry toZero() const
+	{
+		const DoubleDouble r = abs(m_x);
+		if (!(m_x0 > r))
+			return {};
+		// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
+		return ExtendedIsometry::translationTo(m_x / (m_x0 + sqrt((m_x0 - r) * (m_x0 + r))))
+			.inverse();
+	}
+
+private:
+	DoubleDouble m_x0; // of the mean, up to the sum of the weights
+	ExtendedComplex m_x;
+};
 
 /// Lays out one surface.
 class DiskUnfolding
@@ -132,15 +159,6 @@ private:
 };
 
 } // namespace
-
-ExtendedIsometry DiskMean::toZero() const
-{
-	const DoubleDouble r = abs(m_x);
-	if (!(m_x0 > r))
-		return {};
-	// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
-	return ExtendedIsometry::translationTo(m_x / (m_x0 + sqrt((m_x0 - r) * (m_x0 + r)))).inverse();
-}
 
 ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles)
 {

@@ -8,7 +8,6 @@
 #include "flat_mesh.h"
 
 #include <complex>
-#include <limits>
 #include <vector>
 
 namespace ricci {
@@ -79,27 +78,6 @@ inline SidePairing across(Halfedge h, const EdgeArray<SidePairing>& pairing)
 /// \param length of the edge, hyperbolic
 void offerPairing(
 	const HyperbolicLayout& layout, double length, Halfedge h, Halfedge twin, SidePairing& pairing);
-
-/// The point of the disk for which the weighted mean of cosh(distance) to some points is least: the direction
-/// of their weighted mean on the hyperboloid x0^2 - |x|^2 = 1.
-class DiskMean
-{
-public:
-	/// The origin of a frame.
-	void add(double weight, const ExtendedIsometry& frame)
-	{
-		m_x0 += weight * (norm(frame.a) + norm(frame.b));
-		m_x += 2 * weight * (frame.a * frame.b);
-	}
-
-	/// Moves the mean to 0 along the straight line between them. The identity where there is no weight, or the
-	/// points are farther from each other than extended precision can tell.
-	ExtendedIsometry toZero() const;
-
-private:
-	DoubleDouble m_x0; // of the mean, up to the sum of the weights
-	ExtendedComplex m_x;
-};
 
 /// The image of a point of the disk.
 inline Point2 moved(const ExtendedIsometry& isometry, const Point2& p)

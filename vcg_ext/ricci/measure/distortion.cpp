@@ -4,7 +4,6 @@
 #include "../base/indexed.h"
 #include "../base/numbers.h"
 #include "../base/parallel.h"
-#include "../base/points.h"
 #include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../metric/area.h"

@@ -8,14 +8,12 @@
 #include "../cones/seamless_metric.h"
 #include "../error.h"
 #include "../metric/area.h"
-#include "../numerics/sparse_cholesky.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <functional>
 #include <utility>

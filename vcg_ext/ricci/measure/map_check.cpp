@@ -3,7 +3,6 @@
 
 #include "../base/indexed.h"
 #include "../base/numbers.h"
-#include "../base/points.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../charts/chart_overlap.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <set>
 #include <string>

@@ -6,10 +6,8 @@
 #include "../base/tolerances.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ricci {

@@ -133,8 +133,8 @@ private:
 /// at the origin of the plane.
 struct Strip
 {
-	std::vector<std::array<Point2, 2>>
-		sides;            ///< of every crossing, in order: the ends of the crossed halfedge
+	/// Of every crossing, in order: the ends of the crossed halfedge.
+	std::vector<std::array<Point2, 2>> sides;
 	Point2 end{0.0, 0.0}; ///< of the curve
 };
 

@@ -4,7 +4,6 @@
 #include "../base/graphs.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "face_gluing.h"
 #include "sides.h"
 
 #include <algorithm>

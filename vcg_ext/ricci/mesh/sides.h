@@ -5,7 +5,6 @@
 #include "../base/graphs.h"
 #include "surface_mesh.h"
 
-#include <array>
 #include <vector>
 
 namespace ricci {

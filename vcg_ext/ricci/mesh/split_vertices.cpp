@@ -7,7 +7,6 @@
 #include "sides.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace ricci {
 

@@ -3,8 +3,6 @@
 
 #include "../base/tolerances.h"
 
-#include <algorithm>
-#include <array>
 #include <vector>
 
 namespace ricci {

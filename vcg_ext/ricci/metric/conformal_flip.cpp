@@ -5,7 +5,6 @@
 #include "../base/tolerances.h"
 
 #include <cmath>
-#include <cstdint>
 
 namespace ricci {
 

@@ -9,7 +9,6 @@
 #include "repair.h"
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace ricci {

@@ -4,7 +4,6 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../numerics/iteration.h"
-#include "mean_distortion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -68,8 +68,8 @@ struct Descent
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
 /// they are (joinedPoints() says what moves, mean_distortion.h what is minimised).
 ///
-/// All points move at once. Every step solves with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
-/// what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
+/// All points move at once. Every step solves with a DistortionLaplacian for its direction, which limited-memory
+/// BFGS improves by what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
 /// shortened until no triangle is flipped, by an exact test, and the distortion falls enough
 /// [Nocedal Wright 2006, 3.1, 3.5]. A few iterations for the direction are enough: the flow's map is
 /// wrong in the small, where triangles are bent, and solving Newton's equations takes as many steps,

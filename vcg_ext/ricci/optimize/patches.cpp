@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patches.h"
 
-#include "../base/graphs.h"
-
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>

@@ -5,9 +5,7 @@
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -212,7 +210,7 @@ constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
 /// A patch that failed is tried again once it has so many times the triangles.
 constexpr double kPatchGrowth = 1.4;
 
-/// Strain (untangle.h) above which a mended patch is evened out, and the rings of the larger patches.
+/// strain() above which a mended patch is evened out, and the rings of the larger patches.
 constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 

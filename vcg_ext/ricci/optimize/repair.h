@@ -107,7 +107,7 @@ std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 /// Mends the triangles that are not valid: moves points near them, and no others.
 ///
 /// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
-/// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
+/// until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.
 Repair
@@ -122,7 +122,7 @@ Repair repairInStages(
 /// Mends triangles of charts in the Poincaré disk that are flipped or too low.
 ///
 /// The triangles round one of them are laid out side by side across seams, as in the universal cover, where
-/// they are or with that triangle at 0, and are untangled there as straight triangles (untangle.h). Every copy
+/// they are or with that triangle at 0, and are untangled there as straight triangles. Every copy
 /// of a point that has moved follows by the isometry that takes the layout to its chart, so that the sides of
 /// seams stay congruent. Patches are taken one after another, and only where fewer triangles are wrong in the
 /// charts afterwards.

@@ -3,7 +3,6 @@
 
 #include "../base/graphs.h"
 #include "../base/task.h"
-#include "overlay_pieces.h"
 
 #include <cmath>
 #include <complex>

@@ -8,9 +8,7 @@
 #include "chord_arrangement.h"
 #include "edge_crossings.h"
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

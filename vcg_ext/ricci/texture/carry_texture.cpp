@@ -5,7 +5,6 @@
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "old_charts.h"
-#include "picture.h"
 #include "picture_sampler.h"
 
 #include <algorithm>

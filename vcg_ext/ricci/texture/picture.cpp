@@ -4,7 +4,6 @@
 #include "../base/parallel.h"
 #include "../base/task.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
