@@ -911,10 +911,8 @@ class Functions(unittest.TestCase):
         if not ricciflow.pymeshlab.USES_PLUGIN:
             return
         values = documents.filter_parameter_values(common.PYTHON_NAME)
-        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS])
+        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS + common.RARE])
         for parameter in DESCRIPTIONS[0]["parameters"]:
-            if parameter["place"] == "options":
-                continue
             default = parameter["default"]
             if parameter["type"] == "enum":
                 default = parameter["choices"].index(default)
