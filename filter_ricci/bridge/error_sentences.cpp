@@ -73,6 +73,9 @@ std::string inWords(const ricci::InvalidOption& e)
 {
 	using Error = ricci::InvalidOption;
 	const std::string count = std::to_string(e.count);
+	const auto number = [&](const char* parameter, const char* use, double unit = 1.0) {
+		return unusable(numberText(unit * e.value, 6), parameter, use);
+	};
 	switch (e.problem) {
 	case Error::NoSuchChoice:
 	case Error::MemoryLimit:
@@ -80,33 +83,23 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::ChartMargin:
 		return reported(e);
 	case Error::TimeLimit:
-		return unusable(
-			numberText(e.value, 6), "time_limit", "a number of seconds, or 0 for no limit");
+		return number("time_limit", "a number of seconds, or 0 for no limit");
 	case Error::Epsilon:
-		return unusable(
-			numberText(e.value, 6),
-			"epsilon",
-			"a number of radians greater than 0, for example 1e-8");
+		return number("epsilon", "a number of radians greater than 0, for example 1e-8");
 	case Error::SharpAngle:
-		return unusable(
-			numberText(e.value * 180.0 / ricci::kPi, 6),
-			"sharp_angle",
-			"degrees above 0, at most 180");
+		return number("sharp_angle", "degrees above 0, at most 180", 180.0 / ricci::kPi);
 	case Error::ConeCount:
 		return unusable(
 			numberText(e.value, 10),
 			"cone_count",
 			"the number of cones, or 0 to have it chosen by {cone_distortion}");
 	case Error::ConeDistortion:
-		return unusable(
-			numberText(e.value, 6),
-			"cone_distortion",
-			"0, or a number greater than 0, for example 0.25");
+		return number("cone_distortion", "0, or a number greater than 0, for example 0.25");
 	case Error::ConeAngle:
 		return "{cone_angle} must be greater than 0 degrees, not " +
 			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";
 	case Error::SeamHiding:
-		return unusable(numberText(e.value, 6), "seam_hiding", "a number from 0 to 1");
+		return number("seam_hiding", "a number from 0 to 1");
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
 			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";

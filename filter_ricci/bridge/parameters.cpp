@@ -32,7 +32,7 @@ cone_distortion = 0 | Cones: area distortion | float
 seams = Shortest | Seams | Shortest; Existing texture seams; Selected edges; Border of selected faces; Sharp edges
 	Cut along the shortest paths only, or first along UV seams, selected edges, the outline of selected faces, or edges
 	sharper than 30 degrees (sharp_angle).
-padding = 4 | Padding (px) | int
+padding = 2 | Padding (px) | int
 	Empty pixels between charts (UV islands) and to the border, for baking: of a texture of 'Texture size' that covers the
 	whole layout.
 texture_size = 2048 | Texture size (px) | int

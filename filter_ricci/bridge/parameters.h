@@ -43,7 +43,7 @@ using Parameters = std::vector<Parameter>;
 /// Those of a filter, with their defaults.
 const Parameters& filterParameters(int filter);
 
-/// The same as hosts with a dialog have them: those of Place::Options are one text, "options".
+/// The same as dialogs have them: those of Place::Options are one text, "options".
 Parameters dialogParameters(int filter);
 
 /// Gives parameters of Place::Options the values in a text "name=value; name=value"; a value in double quotes may hold

@@ -30,6 +30,12 @@ inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 	md.delMesh(mesh);
 }
 
+/// Whether there is a dialog, whose parameters scripts of meshlabserver have, too.
+inline bool hasDialog()
+{
+	return true;
+}
+
 /// Textures are files here, known by their names only.
 inline void copyTextures(const MeshModel& from, MeshModel& to)
 {

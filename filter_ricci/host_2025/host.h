@@ -21,6 +21,12 @@ inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 	md.delMesh(static_cast<unsigned int>(mesh->id()));
 }
 
+/// Whether there is a dialog. Else it is PyMeshLab.
+inline bool hasDialog()
+{
+	return hasWindow();
+}
+
 inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	for (const std::string& name : from.cm.textures)

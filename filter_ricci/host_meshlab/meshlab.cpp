@@ -25,7 +25,7 @@ void add(RichParameterList& list, const Parameter& p, const Arguments&... argume
 {
 	const QString name = QString::fromStdString(p.name), label = QString::fromStdString(p.label),
 				  tooltip = QString::fromStdString(p.tooltip);
-	if (p.place == Place::Advanced)
+	if (p.place != Place::Shown)
 		list.addParam(host::advanced<Rich>(name, arguments..., label, tooltip));
 	else
 		list.addParam(Rich(name, arguments..., label, tooltip));
@@ -35,8 +35,12 @@ void add(RichParameterList& list, const Parameter& p, const Arguments&... argume
 
 RichParameterList richParameters(int filter)
 {
+	Parameters parameters = dialogParameters(filter);
+	for (const Parameter& p : filterParameters(filter))
+		if (p.place == Place::Options && !host::hasDialog())
+			parameters.push_back(p);
 	RichParameterList list;
-	for (const Parameter& p : dialogParameters(filter)) {
+	for (const Parameter& p : parameters) {
 		if (const bool* const isOn = std::get_if<bool>(&p.value))
 			add<RichBool>(list, p, *isOn);
 		else if (const double* const number = std::get_if<double>(&p.value))

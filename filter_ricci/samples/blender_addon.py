@@ -83,7 +83,7 @@ class UnwrapRicciFlow(bpy.types.Operator):
 
     padding: bpy.props.IntProperty(
         name="Padding", description="Empty pixels between charts, of a texture of 2048 pixels",
-        default=4, min=0, max=512)
+        default=2, min=0, max=512)
     seam_hiding: bpy.props.FloatProperty(
         name="Hide seams", description="How much rather seams that are added run through hollows",
         default=0.0, min=0.0, max=1.0)

@@ -31,7 +31,7 @@ TEST(Parameters, HaveTheDefaultsOfTheAlgorithm)
 	EXPECT_EQ(plane.flow.finish, options.finish);
 	EXPECT_EQ(plane.flow.normalizeUV, options.normalizeUV);
 	EXPECT_EQ(plane.flow.chartMargin, 0.0); // it depends on the texture
-	EXPECT_EQ(plane.padding, 4);
+	EXPECT_EQ(plane.padding, 2);
 	EXPECT_EQ(plane.flow.sharpAngle, options.sharpAngle);
 	EXPECT_EQ(plane.flow.seamHiding, options.seamHiding);
 	EXPECT_EQ(plane.flow.holes, options.holes);

@@ -44,7 +44,7 @@ SPHERE = {
 
 TEXTURE = {"texture_scale": float}
 
-# Parameter ids in the order of the public interface. Hosts with a dialog have one text, "options", for the RARE ones.
+# Parameter ids in the order of the public interface. MeshLab has one text, "options", for the RARE ones, PyMeshLab both.
 SEAMS = ["Shortest", "Existing texture seams", "Selected edges", "Border of selected faces", "Sharp edges"]
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
@@ -61,7 +61,7 @@ RARE_CHOICES = {"cone_rounding": ["Free", "Multiples of pi/2"],
 OPTIONS = ("options", "String", "")
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.0),
-    ("seams", "Enum", 0), ("padding", "Int", 4), ("texture_size", "Int", 2048),
+    ("seams", "Enum", 0), ("padding", "Int", 2), ("texture_size", "Int", 2048),
     ("carry_texture", "String", ""), ("layers", "Enum", 0),
     ("charts", "Enum", 2), ("normalize_uv", "Bool", True), ("holes", "Enum", 2),
     ("output_triangulation", "Enum", 0), ("finish", "Enum", 2), ("method", "Enum", 0),
@@ -100,7 +100,7 @@ def all_parameters(our_filter):
 
 
 def in_dialog(our_filter, values):
-    """Parameters as hosts with a dialog have them."""
+    """Parameters as MeshLab has them."""
     rare = {name: values[name] for name, _, _ in our_filter.RARE if name in values}
     shown = {name: value for name, value in values.items() if name not in rare}
     if rare:

@@ -71,6 +71,6 @@ def run(documents, our_filter=common, **values):
                 values[key] = os.path.join(_folders.get(id(documents), ""), values[key])
         returned = getattr(documents, our_filter.PYTHON_NAME)(**values)
     else:
-        returned = documents.apply_filter(our_filter.PYTHON_NAME, **common.in_dialog(our_filter, values))
+        returned = documents.apply_filter(our_filter.PYTHON_NAME, **values)
     return {key: common.vector(value.tolist()) if isinstance(value, numpy.ndarray) else value
             for key, value in returned.items()}

@@ -41,7 +41,7 @@ class Results(unittest.TestCase):
         self.assertTrue(all(math.isfinite(c) for uv in corners for c in uv))
         if normalize_uv:
             self.assertTrue(all(-1e-6 <= c <= 1 + 1e-6 for uv in corners for c in uv))
-            self.assertAlmostEqual(max(c for uv in corners for c in uv), 1 - 4 / 2048, delta=1e-6)  # the padding
+            self.assertAlmostEqual(max(c for uv in corners for c in uv), 1 - 2 / 2048, delta=1e-6)  # the padding
         areas = [meshes.uv_area(wedge) for wedge in mesh.wedges]
         self.assertEqual(sum(area <= 0 for area in areas), int(pairs["flipped_faces"]))
         own = [meshes.distortion([mesh.vertices[v] for v in face], wedge)

@@ -353,8 +353,9 @@ class Results(unittest.TestCase):
         documents = mesh_set(meshes.torus())
         run(documents)
         values = documents.filter_parameter_values(common.PYTHON_NAME)
-        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS])
-        for name, kind, default in common.PARAMETERS:
+        parameters = common.PARAMETERS + common.RARE
+        self.assertEqual(list(values), [name for name, _, _ in parameters])
+        for name, kind, default in parameters:
             if kind == "Float":
                 self.assertAlmostEqual(values[name], default, delta=1e-6 * default)
             else:
@@ -680,7 +681,8 @@ class Hyperbolic(unittest.TestCase):
     def test_parameters_and_defaults(self):
         documents = mesh_set(meshes.double_torus(1))
         values = documents.filter_parameter_values(common.HYPERBOLIC.PYTHON_NAME)
-        self.assertEqual(list(values), [name for name, _, _ in common.HYPERBOLIC.PARAMETERS])
+        self.assertEqual(list(values), [name for name, _, _ in (
+            common.HYPERBOLIC.PARAMETERS + common.HYPERBOLIC.RARE)])
 
 
 class AnyTriangles(unittest.TestCase):

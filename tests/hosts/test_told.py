@@ -81,7 +81,7 @@ class FreeBoundary(Told):
 
     def test_kept_without_a_finish(self):
         documents = mesh_set(meshes.hill())
-        returned = run(documents, finish="None", normalize_uv=False)
+        returned = run(documents, finish="None", normalize_uv=False, padding=0)
         for key, extreme in (("boundary_ratio_min", min), ("boundary_ratio_max", max)):
             self.assertAlmostEqual(returned[key], 1.0, delta=1e-6)
             self.assertAlmostEqual(extreme(self.ratios(documents)), 1.0, delta=1e-6)

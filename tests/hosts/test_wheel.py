@@ -534,6 +534,16 @@ class Functions(unittest.TestCase):
                 result = flatten(*arrays(mesh), layers="Flat mesh and sphere")
             self.assertEqual(set(result.layers), {"flat"})
 
+    def test_padding_without_room_is_told(self):
+        """Of 36 charts in a square, seven margins of an eighth leave almost no room."""
+        vertices = numpy.concatenate([arrays(meshes.hill(2))[0] + [5.0 * i, 0, 0] for i in range(36)])
+        count = len(vertices) // 36
+        faces = numpy.concatenate([arrays(meshes.hill(2))[1] + count * i for i in range(36)])
+        with self.assertWarnsRegex(ricciflow.RicciWarning, "too many charts for padding 512: .* Raise texture_size"):
+            result = flatten(vertices, faces, padding=512)
+        self.assertLess(result.padding_pixels, 512)
+        self.assertGreaterEqual(result.uv.min(), result.padding_pixels / 2048 - 1e-6)
+
     def test_doubts_are_warnings(self):
         """As warnings, and with the result."""
         mesh = arrays(meshes.swirled(meshes.double_torus(), 4.0, 1.5))
@@ -902,10 +912,8 @@ class Functions(unittest.TestCase):
         if not ricciflow.pymeshlab.USES_PLUGIN:
             return
         values = documents.filter_parameter_values(common.PYTHON_NAME)
-        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS])
+        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS + common.RARE])
         for parameter in DESCRIPTIONS[0]["parameters"]:
-            if parameter["place"] == "options":
-                continue
             default = parameter["default"]
             if parameter["type"] == "enum":
                 default = parameter["choices"].index(default)

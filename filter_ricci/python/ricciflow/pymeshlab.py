@@ -102,18 +102,9 @@ def _refusal(problem):
     return (InvalidValue if text.startswith("The value ") else Refused)(text)
 
 
-def _in_dialog(number, parameters):
-    """Parameters as the plugin has them: the rare ones are one text."""
-    rare = [p["name"] for p in DESCRIPTIONS[number]["parameters"] if p["place"] == "options"]
-    options = "; ".join(f'{name}="{parameters[name]}"' for name in rare if name in parameters)
-    shown = {name: value for name, value in parameters.items() if name not in rare}
-    return {**shown, "options": options} if options else shown
-
-
 def _run_plugin(number, mesh_set, parameters, tell):
     """Results, log, and warnings."""
     log, messages = [], []
-    parameters = _in_dialog(number, parameters)
 
     def run(listener):
         def receive(percent, text):

@@ -36,7 +36,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Border of selected faces',
             'Sharp edges',
         ]] = 'Shortest',
-        padding: int = 4,
+        padding: int = 2,
         texture_size: int = 2048,
         carry_texture: str = '',
         layers: Union[int, Literal[
