@@ -27,9 +27,8 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// Fills Chart::box.
 ///
 /// With \p normalizeUV charts may be turned, too, as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others in any
-/// way. The largest are placed by their outlines, with the
-/// boxes of the small and the thin ones as one more chart, where the square gets smaller by
-/// kWorthTurning. One chart that is not upright is turned as the smallest square round it lies. The report's occupancy is
+/// way. They are placed by their outlines, with the boxes of those that are thin or smaller than a few cells of
+/// packOutlines() as one more chart, where the square gets smaller by kWorthTurning. One chart that is not upright is turned as the smallest square round it lies. The report's occupancy is
 /// set in all cases.
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
 /// InvalidMesh BeyondFloats if coordinates that keep their scale are too large or too small for float,
@@ -46,8 +45,8 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 /// little is left to win.
 constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 
-/// Cuts at most, and losses of worth by cuts in a row that bring nothing, together, which further cuts do not
-/// make up: a sixth.
+/// Cuts at most, and prices of cuts in a row that bring nothing, together, which further cuts do not make up: a
+/// sixth.
 constexpr int kMaxCuts = 24;
 constexpr double kMaxLoss = 0.18;
 
