@@ -8,11 +8,13 @@
 #include "boxes_side_by_side.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -23,8 +25,12 @@ namespace {
 
 constexpr int kWordBits = 64;
 
-/// Cells along a side of the square, where places are sought and where they are found.
-constexpr int kCoarse = 128, kFine = 512;
+/// Cells along a side of the square in which places are sought: at least, at most, and times the root of the number of
+/// outlines; and cells in place of one of them, in which places are found.
+constexpr int kMinCoarse = 192, kMaxCoarse = 2048, kCoarsePerRoot = 16, kFineInCoarse = 3;
+
+/// Angles below a right one in which an outline is tried, at most.
+constexpr int kMaxAngles = 12;
 
 /// Orders that are tried in coarse cells, and those of them that are tried in fine ones.
 constexpr int kTries = 17;
@@ -34,7 +40,7 @@ constexpr std::size_t kFineTries = 3;
 constexpr int kSlack = 4;
 
 /// Rows of cells compared after which no further order is tried.
-constexpr long long kMaxWork = 1'000'000;
+constexpr long long kMaxWork = 2'000'000;
 
 /// Rows of cells, a bit for each that is taken, and bits that stay free at the end.
 class Rows
@@ -109,6 +115,8 @@ struct Shape
 {
 	Motion motion; ///< brings that corner to the origin
 	int width = 0, height = 0;
+	int x = 0, y = 0;      ///< of the middle of its area
+	int size = 0;          ///< the same for areas that differ by less than a fifth
 	std::vector<Run> runs; ///< longest first
 };
 
@@ -210,6 +218,16 @@ private:
 				++m_longer[positionOf(last - first - 1)];
 			}
 		}
+		std::array<std::int64_t, 3> sums{}; // of cells, and of where they are
+		for (const auto& [row, first, last, level] : m_runs) {
+			const std::int64_t length = last - first;
+			sums[0] += length;
+			sums[1] += length * (first + last) / 2;
+			sums[2] += length * row;
+		}
+		shape.x = static_cast<int>(sums[1] / sums[0]);
+		shape.y = static_cast<int>(sums[2] / sums[0]);
+		shape.size = std::ilogb(std::pow(static_cast<double>(sums[0]), 4));
 		std::partial_sum(m_longer.rbegin(), m_longer.rend(), m_longer.rbegin());
 		shape.runs.resize(m_runs.size());
 		for (const Run& run : m_runs)
@@ -226,7 +244,8 @@ private:
 	std::vector<std::size_t> m_longer; // [length] runs that are longer
 };
 
-/// Less is better: the side of the square, then how far out the shape lies.
+/// Less is better: the side of the square, how far along an axis the shape reaches, and the square of its middle's
+/// distance from the corner.
 using Cost = std::array<int, 3>;
 
 struct Spot
@@ -240,8 +259,8 @@ class Canvas
 {
 public:
 	explicit Canvas(int cells) :
-			m_cells(cells), m_levels(lowestBit(static_cast<std::uint64_t>(cells)) + 1),
-			m_taken(cells * m_levels, cells), m_blocked(1, cells)
+			m_cells(cells), m_levels(std::ilogb(cells) + 1), m_taken(cells * m_levels, cells),
+			m_blocked(1, cells)
 	{
 	}
 
@@ -255,18 +274,22 @@ public:
 	}
 
 	/// Takes a better place of \p shape than \p best, if there is one.
-	void look(const Shape& shape, Spot& best)
+	/// \param least cells that it reaches along an axis; it is not looked for nearer
+	void look(const Shape& shape, int least, Spot& best)
 	{
 		m_runs = shape.runs;
 		for (int y = 0; y + shape.height <= farthest(best); ++y) {
 			const int end = farthest(best) - shape.width + 1; // of x
 			if (end <= 0)
 				return;
+			const int begin = y + shape.height < least ? std::max(least - shape.width, 0) : 0;
+			if (begin >= end)
+				continue;
 			std::uint64_t* blocked = m_blocked[0];
-			const int words = (end - 1) / kWordBits + 1;
-			std::fill_n(blocked, words, 0);
-			if (end % kWordBits != 0) // what begins there is no place
-				blocked[words - 1] = ~std::uint64_t{0} << (end % kWordBits);
+			const std::array<int, 2> words{begin / kWordBits, (end - 1) / kWordBits + 1};
+			std::fill(blocked + words[0], blocked + words[1], 0);
+			fill(blocked, begin - begin % kWordBits, begin);
+			fill(blocked, end, words[1] * kWordBits);
 			bool isFull = false;
 			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
 				isFull = block(m_runs[i], y, words);
@@ -276,10 +299,13 @@ public:
 			}
 			if (isFull)
 				continue;
-			const int x = nextCell(blocked, 0, end, false);
+			const int x = nextCell(blocked, begin, end, false);
 			const int right = x + shape.width, top = y + shape.height;
+			const int middleX = x + shape.x, middleY = y + shape.y;
 			const Cost cost{
-				std::max({m_side, right, top}), std::max(right, top), right + top + x + y};
+				std::max({m_side, right, top}),
+				std::max(right, top),
+				middleX * middleX + middleY * middleY};
 			if (cost < best.cost)
 				best = {cost, &shape, x, y};
 		}
@@ -309,15 +335,15 @@ private:
 
 	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
 
-	/// Adds the x at which \p run meets cells that are taken, in the first \p words.
+	/// Adds the x at which \p run meets cells that are taken, in \p words from the first to before the last.
 	/// \return whether all are blocked now
-	bool block(const Run& run, int y, int words)
+	bool block(const Run& run, int y, const std::array<int, 2>& words)
 	{
 		const std::uint64_t* taken = rowAt(y + run.row, run.level);
 		const int first = run.first, last = run.last - (1 << run.level);
 		std::uint64_t* blocked = m_blocked[0];
 		std::uint64_t all = ~std::uint64_t{0};
-		for (int i = 0; i < words; ++i)
+		for (int i = words[0]; i < words[1]; ++i)
 			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
 								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
 		return all == ~std::uint64_t{0};
@@ -350,14 +376,18 @@ std::vector<Point2> pointsOf(const Outline& outline)
 
 using Order = std::vector<std::size_t>; // of outlines
 
-/// The largest first.
+/// The largest first, by their areas and those of their boxes: what is long or jagged finds no place late.
 /// \param side of the square that is to hold them
 Order orderOf(const std::vector<Outline>& outlines, double side)
 {
 	std::vector<double> areas;
 	areas.reserve(outlines.size());
-	for (const Outline& outline : outlines)
-		areas.push_back(roundedShare(areaOf(outline), side * side));
+	for (const Outline& outline : outlines) {
+		Box2 box;
+		for (const auto& ends : outline)
+			box.add(ends[0]);
+		areas.push_back(roundedShare(areaOf(outline) + box.width() * box.height(), side * side));
+	}
 	Order order(outlines.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -388,7 +418,8 @@ struct Try
 	std::size_t last;            ///< outline that reaches farthest, or that has no place
 };
 
-/// Places outlines one after the other where the square stays smallest and below \p side.
+/// Places outlines one after the other where the square stays smallest and below \p side. What is about as large as
+/// one that has a place is not looked for nearer, but for twice its own extent.
 /// \param first shape of the first one
 /// \param shapes [outline] to choose from
 /// \return without motions where one has no place
@@ -402,18 +433,23 @@ Try place(
 {
 	canvas.clear();
 	Try result{0, order, std::vector<Motion>(order.size()), order.front()};
+	std::map<int, int> reached; // by Shape::size
 	for (const std::size_t i : order) {
 		Spot spot;
 		spot.cost[0] = side;
 		if (i == order.front())
-			canvas.look(first, spot);
+			canvas.look(first, 0, spot);
 		else
 			for (const Shape& shape : shapes[i])
-				canvas.look(shape, spot);
+				canvas.look(
+					shape,
+					reached[shapes[i][0].size] - 2 * std::max(shape.width, shape.height),
+					spot);
 		checkpoint();
 		if (!spot.shape)
 			return {0, order, {}, i};
 		canvas.take(spot);
+		reached[shapes[i][0].size] = spot.cost[1];
 		if (spot.cost[1] > result.side) {
 			result.side = spot.cost[1];
 			result.last = i;
@@ -426,6 +462,12 @@ Try place(
 
 } // namespace
 
+int coarseCells(std::size_t outlines)
+{
+	const int wanted = static_cast<int>(kCoarsePerRoot * std::sqrt(static_cast<double>(outlines)));
+	return std::clamp(wanted, kMinCoarse, kMaxCoarse) / kWordBits * kWordBits;
+}
+
 std::vector<Motion> packOutlines(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
@@ -435,7 +477,8 @@ std::vector<Motion> packOutlines(
 	const double reach = 0.5 * padding;
 	Order order = orderOf(outlines, side);
 	const std::size_t largest = order.front();
-	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
+	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, kMaxAngles);
+	const int coarseSide = coarseCells(outlines.size()), fineSide = kFineInCoarse * coarseSide;
 
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
 	std::vector<std::size_t> firsts;                         // of the largest, below a right angle
@@ -444,7 +487,7 @@ std::vector<Motion> packOutlines(
 		sides += static_cast<std::int64_t>(outline.size());
 	const auto draw = [&](int number) {
 		const std::size_t i = positionOf(number);
-		Drawing coarse(kCoarse, side, reach);
+		Drawing coarse(coarseSide, side, reach);
 		const bool isFree = turns[i] == ChartTurns::Free;
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
 		std::vector<std::complex<double>> angles; // below a right one
@@ -462,15 +505,20 @@ std::vector<Motion> packOutlines(
 	};
 	tasksInParallel(static_cast<int>(outlines.size()), threadsFor(sides), draw);
 
-	Canvas canvas(kCoarse);
+	Canvas canvas(coarseSide);
 	std::vector<Try> tries;
-	int minSide = kCoarse + 1;
+	int minSide = coarseSide + 1;
 	for (std::size_t t = 0; t < kTries && canvas.work() <= kMaxWork; ++t) {
 		if (firsts.empty())
 			return {};
 		const Shape& first = shapes[largest][firsts[t % firsts.size()]];
 		Try next = place(
-			order, first, shapes, side / kCoarse, std::min(minSide + kSlack, kCoarse + 1), canvas);
+			order,
+			first,
+			shapes,
+			side / coarseSide,
+			std::min(minSide + kSlack, coarseSide + 1),
+			canvas);
 		// Earlier the next time, but not before the largest.
 		const auto last = std::find(order.begin(), order.end(), next.last);
 		std::rotate(order.begin() + (last - order.begin() + 1) / 2, last, last + 1);
@@ -486,9 +534,9 @@ std::vector<Motion> packOutlines(
 		return {};
 
 	// In the turns that were found; finer cells may find other places.
-	Drawing fine(kFine, minSide * side / kCoarse, reach);
-	Canvas fineCanvas(kFine);
-	minSide = kFine + 1;
+	Drawing fine(fineSide, minSide * side / coarseSide, reach);
+	Canvas fineCanvas(fineSide);
+	minSide = fineSide + 1;
 	std::vector<Motion> best = tries.front().motions;
 	for (const Try& t : tries) {
 		for (std::size_t i = 0; i < outlines.size(); ++i) {

@@ -5,9 +5,13 @@
 #include "../options.h"
 #include "outline.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace ricci {
+
+/// Cells along a side of the square in which packOutlines() first places so many outlines.
+int coarseCells(std::size_t outlines);
 
 /// Packs outlines into a square from the origin, by cells that they touch, one after the other. Each goes
 /// where the square that holds all so far is smallest, also in holes of others. The largest is the first, at

@@ -25,15 +25,12 @@ namespace {
 /// Attempts to find the padding between charts, which grows with the square that holds them.
 constexpr int kMaxAttempts = 60;
 
-/// Charts that are placed by their outlines at most.
-constexpr std::size_t kMaxOutlines = 200;
-
 /// A lone chart lies along the axes if the square round it is wider by no more than this share. Nets of boxes, which
 /// mostly are one chart, stay below it; a strip ten times as long as wide fills a tenth of the square in place of a sixth.
 constexpr double kUprightCost = 0.1;
 
-/// A chart is too small for that if its box is shorter than this share of the square.
-constexpr double kMinOutlineExtent = 1.0 / 64.0;
+/// A chart is placed by its outline if its box is longer than so many of the cells in which places are sought.
+constexpr double kMinOutlineCells = 3.0;
 
 /// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
 /// that the chart's triangles want: to be given a height they lie side by side in two directions.
@@ -181,9 +178,9 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	});
 	std::vector<std::size_t> large, small;
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
+	const double least = kMinOutlineCells * side / coarseCells(boxes.size());
 	for (const std::size_t i : order) {
-		const bool isLarge = large.size() < kMaxOutlines && !isThin[i] &&
-							 boxes[i].extent() > kMinOutlineExtent * side;
+		const bool isLarge = !isThin[i] && boxes[i].extent() > least;
 		(isLarge ? large : small).push_back(i);
 		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
 	}
@@ -341,7 +338,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
 		best;
 	double most = worth(map);
-	double loss = 0.0; // of the vain cuts together
+	double loss = 0.0; // prices of the vain cuts together
 	bool isEnded = false;
 	for (int cuts = 0, vain = 0; loss < kMaxLoss; ++cuts) {
 		if (!best && map.report.occupancy > kEnoughCovered)
@@ -359,7 +356,8 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 			break; // there is no room for one chart more
 		++vain;
 		const double reached = worth(map);
-		loss += std::max(most - reached, 0.0);
+		const double seams = std::sqrt(area) + map.report.seamLength;
+		loss += kPackingPrice * std::log(seams / (seams - cut->length));
 		if (reached > most + vain * kMinRoom) {
 			best.reset();
 			most = reached;

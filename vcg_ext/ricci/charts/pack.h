@@ -26,8 +26,8 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// do. Fills Chart::box, and occupancy and margin of the report.
 ///
 /// Charts may be turned as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others
-/// in any way. The largest are placed by their outlines, with the boxes of the small and the thin ones as one more
-/// chart, where the square gets smaller by kWorthTurning. One chart that is not upright is turned as the smallest square
+/// in any way. They are placed by their outlines, with the boxes of those that are thin or smaller than a few cells of
+/// packOutlines() as one more chart, where the square gets smaller by kWorthTurning. One chart that is not upright is turned as the smallest square
 /// round it lies.
 ///
 /// With \p mayCut charts are cut by findCutForPacking() as long as that is worth it (kPackingPrice) and each cut brings
@@ -44,8 +44,8 @@ void packCharts(
 /// little is left to win.
 constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 
-/// Cuts at most, and losses of worth by cuts in a row that bring nothing, together, which further cuts do not
-/// make up: a sixth.
+/// Cuts at most, and prices of cuts in a row that bring nothing, together, which further cuts do not make up: a
+/// sixth.
 constexpr int kMaxCuts = 24;
 constexpr double kMaxLoss = 0.18;
 

@@ -111,7 +111,7 @@ bool reflectFlipped(FlatMesh& chart)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// The least cut across a chart's smallest bounding rectangle, except for \p from at either end, or across so much
+/// The pieces of a chart that is not connected; else the least cut across its smallest bounding rectangle, except for \p from at either end, or across so much
 /// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
 /// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
 /// chart goes to the other part.
@@ -124,6 +124,9 @@ std::optional<ChartCut> halves(
 	double from)
 {
 	DualGraph graph(mesh);
+	ChartCut cut{graph.connectedPieces(triangles)};
+	if (cut.pieces.size() > 1)
+		return cut;
 	// From the middle of the rectangle, along it: 0 for a triangle that reaches across.
 	std::vector<double> along;
 	for (const int i : triangles) {
@@ -161,7 +164,7 @@ std::optional<ChartCut> halves(
 		}
 		return areas;
 	};
-	ChartCut cut{graph.connectedPieces(triangles)};
+	cut.pieces = graph.connectedPieces(triangles);
 	std::vector<double> areas = areasOf(cut.pieces);
 	const double crumb = kCrumb * std::accumulate(areas.begin(), areas.end(), 0.0);
 	const auto isCrumb = [&](double area) { return area < crumb; };
