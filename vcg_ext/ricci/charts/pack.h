@@ -27,8 +27,8 @@ bool marginsMayFit(std::size_t charts, double margin);
 ///
 /// Charts may be turned as both \p turns and the options allow: those with an uprightTurn() lie along the axes, others
 /// in any way. They are placed by their outlines, with the boxes of those that are thin or smaller than a few cells of
-/// packOutlines() as one more chart, where the square gets smaller by kWorthTurning. One chart that is not upright is turned as the smallest square
-/// round it lies.
+/// packOutlines() as one more chart, where the square gets smaller by kWorthTurning. One chart that is not upright is
+/// turned as the smallest square round it lies.
 ///
 /// With \p mayCut charts are cut by findCutForPacking() as long as that is worth it (kPackingPrice) and each cut brings
 /// kMinRoom besides; until kEnoughCovered is covered. Without turns nothing is cut.
