@@ -325,11 +325,8 @@ std::string noSuchParameter(const Parameters& parameters, const std::string& nam
 
 void setOptions(Parameters& parameters, const std::string& text)
 {
-	for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-		bool isQuoted = false;
-		for (end = at; end < text.size() && (isQuoted || text[end] != ';'); ++end)
-			isQuoted = isQuoted != (text[end] == '"');
-		const std::string option = trimmed(text.substr(at, end - at));
+	for (const std::string& part : split(text, ";")) {
+		const std::string option = trimmed(part);
 		if (option.empty())
 			continue;
 		const std::size_t equals = option.find('=');
@@ -342,10 +339,7 @@ void setOptions(Parameters& parameters, const std::string& text)
 				"{" + name + "} is a parameter of its own: set it there, not as an option.");
 		if (equals == std::string::npos)
 			throw Refusal("{" + name + "} has no value: options are 'name=value; name=value'.");
-		std::string value = trimmed(option.substr(equals + 1));
-		if (value.size() > 1 && value.front() == '"' && value.back() == '"')
-			value = value.substr(1, value.size() - 2);
-		const std::string problem = setFromText(*p, value);
+		const std::string problem = setFromText(*p, trimmed(option.substr(equals + 1)));
 		if (!problem.empty())
 			throw Refusal(problem);
 	}

@@ -46,8 +46,7 @@ const Parameters& filterParameters(int filter);
 /// The same as dialogs have them: those of Place::Options are one text, "options".
 Parameters dialogParameters(int filter);
 
-/// Gives parameters of Place::Options the values in a text "name=value; name=value"; a value in double quotes may hold
-/// semicolons.
+/// Gives parameters of Place::Options the values in a text "name=value; name=value".
 /// \throw Refusal
 void setOptions(Parameters& parameters, const std::string& text);
 

@@ -152,11 +152,11 @@ TEST(Parameters, AreReadFromOptions)
 {
 	Parameters parameters = filterParameters(Euclidean);
 	setOptions(
-		parameters, " cone_count = 3;; report=\"a; b=1.html\";cone_rounding=multiples of PI/2; ");
+		parameters, " cone_count = 3;; report=a b=1.html ;cone_rounding=multiples of PI/2; ");
 	setOptions(parameters, "");
 	EXPECT_EQ(valueOf<int>(parameters, "cone_count"), 3);
 	EXPECT_EQ(valueOf<int>(parameters, "cone_rounding"), 1);
-	EXPECT_EQ(valueOf<std::string>(parameters, "report"), "a; b=1.html");
+	EXPECT_EQ(valueOf<std::string>(parameters, "report"), "a b=1.html");
 	for (const auto& [text, sentence] :
 		 {std::pair("cone_count=many", "{cone_count} must be a whole number, not 'many'."),
 		  std::pair("report=a.html;b", "The filter has no parameter 'b': it is one of"),

@@ -104,7 +104,7 @@ def in_dialog(our_filter, values):
     rare = {name: values[name] for name, _, _ in our_filter.RARE if name in values}
     shown = {name: value for name, value in values.items() if name not in rare}
     if rare:
-        shown["options"] = "; ".join(f'{name}="{value}"' for name, value in rare.items())
+        shown["options"] = "; ".join(f"{name}={value}" for name, value in rare.items())
     return shown
 
 
