@@ -97,6 +97,8 @@ Results toResults(const ricci::Report& report)
 		{"genus", report.genus, "Genus"},
 		{"boundary_loops", report.boundaryLoops, "Boundary loops"},
 		{"components", report.components, "Components"},
+		{"joined_edges", report.joinedEdges, "Edges of split vertices, joined"},
+		{"pieces_apart", report.piecesApart, "Pieces that could be joined so"},
 		{"cut_nonmanifold_edges", report.cutNonmanifoldEdges, "Non-manifold edges, cut open"},
 		{"split_vertices", report.splitVertices, "Vertices with several places in the map"},
 		{"duplicate_faces", report.duplicateFaces, "Faces that duplicate another"},
