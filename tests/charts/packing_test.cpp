@@ -191,6 +191,60 @@ TEST(Packing, KeepsTheMarginBetweenOutlinesInTheUnitSquare)
 		}
 }
 
+/// Half a ring, which leaves most of its box free.
+SurfaceMesh arch(double size)
+{
+	SurfaceMesh half = rectangle(8, 1, kPi, 1.0);
+	for (Point3& p : half.positions) {
+		const double r = size * (2.0 - p[1]);
+		p = {r * std::cos(p[0]), r * std::sin(p[0]), 0.0};
+	}
+	return half;
+}
+
+/// Many small charts fill what few do, by their outlines too.
+TEST(Packing, FillsAsMuchWithManyChartsAsWithFew)
+{
+	for (const double least : {1.0, 0.3}) {
+		SCOPED_TRACE("sizes from " + std::to_string(least));
+		Random random(393);
+		std::vector<SurfaceMesh> pieces;
+		double ofFew = 0.0;
+		for (const int n : {150, 600, 2000}) {
+			while (pieces.size() < at(n))
+				pieces.push_back(arch(random.real(least, 1.0)));
+			const SurfaceMesh mesh = together(pieces);
+			const Parametrization map = parametrizeEuclidean(mesh, {}, packing(0.0));
+			if (n == 150)
+				ofFew = map.report.occupancy;
+			EXPECT_GT(map.report.occupancy, ofFew - 0.02) << n;
+			if (n == 600) {
+				const Parametrization apart = parametrizeEuclidean(mesh, {}, packing(0.001));
+				expectPacked(mesh, apart, at(n));
+				EXPECT_GE(leastDistance(apart), 0.001 - 1e-7);
+			}
+		}
+	}
+}
+
+/// The square stays that of the large chart, whose hole or bay the others have all of their room in.
+TEST(Packing, UsesHolesAndBaysOfLargeCharts)
+{
+	for (const auto& [name, large] :
+		 {std::pair("hole", ring(0.7, 1.0, 64, 2)), std::pair("bay", arch(0.5))}) {
+		SCOPED_TRACE(name);
+		const double alone = parametrizeEuclidean(large, {}, packing(0.0)).report.occupancy;
+		std::vector<SurfaceMesh> pieces{large};
+		for (const double size : {0.4, 0.2, 0.2, 0.05})
+			pieces.push_back(rectangle(1, 1, size, size));
+		const SurfaceMesh mesh = together(pieces);
+		const Parametrization map = parametrizeEuclidean(mesh, {}, packing(0.0));
+		expectPacked(mesh, map, pieces.size());
+		const double area = areaOf(mesh) / areaOf(large);
+		EXPECT_NEAR(map.report.occupancy, alone * area, 0.03 * alone * area);
+	}
+}
+
 /// Boxes are placed by the caller where he wants to, in a square from the origin; the scale stays, and nothing is turned.
 TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
 {

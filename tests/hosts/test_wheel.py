@@ -875,8 +875,10 @@ class Functions(unittest.TestCase):
                 target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
             result = flatten(path)
             self.assertEqual((result.genus, result.components), (2, 1))
+            self.assertEqual((result.joined_edges, result.pieces_apart), (3 * len(faces) // 2, 0))
             self.assertEqual(result.charts, flatten(vertices, faces).charts)
-            self.assertEqual(flatten(path, join_vertices="Never").components, len(faces))
+            apart = flatten(path, join_vertices="Never")
+            self.assertEqual((apart.components, apart.joined_edges), (len(faces), 0))
 
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))

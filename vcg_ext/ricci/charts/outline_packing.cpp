@@ -8,7 +8,6 @@
 #include "boxes_side_by_side.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +26,10 @@ constexpr int kWordBits = 64;
 
 /// Cells along a side of the square in which places are sought: at least, at most, and times the root of the number of
 /// outlines; and cells in place of one of them, in which places are found.
-constexpr int kMinCoarse = 192, kMaxCoarse = 2048, kCoarsePerRoot = 16, kFineInCoarse = 3;
+constexpr int kMinCoarse = 192, kMaxCoarse = 2048, kCoarsePerRoot = 20, kFineInCoarse = 3;
+
+/// A smaller square is sought as long as the last got smaller by its side divided by this.
+constexpr int kGains = 256;
 
 /// Angles below a right one in which an outline is tried, at most.
 constexpr int kMaxAngles = 12;
@@ -50,8 +52,6 @@ public:
 	{
 	}
 
-	/// In a row, the bits at the end included.
-	int words() const { return m_words; }
 	std::uint64_t* operator[](int row) { return m_bits.data() + positionOf(row * m_words); }
 	const std::uint64_t* operator[](int row) const
 	{
@@ -118,6 +118,8 @@ struct Shape
 	int x = 0, y = 0;      ///< of the middle of its area
 	int size = 0;          ///< the same for areas that differ by less than a fifth
 	std::vector<Run> runs; ///< longest first
+
+	int extent() const { return std::max(width, height); }
 };
 
 /// Draws outlines in cells, in buffers that it keeps.
@@ -146,7 +148,7 @@ public:
 		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
 		shape.width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
 		shape.height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
-		if (std::max(shape.width, shape.height) > m_cells)
+		if (shape.extent() > m_cells)
 			return false;
 		m_rows.clear(shape.height);
 		for (auto& side : m_sides) {
@@ -218,16 +220,16 @@ private:
 				++m_longer[positionOf(last - first - 1)];
 			}
 		}
-		std::array<std::int64_t, 3> sums{}; // of cells, and of where they are
-		for (const auto& [row, first, last, level] : m_runs) {
-			const std::int64_t length = last - first;
-			sums[0] += length;
-			sums[1] += length * (first + last) / 2;
-			sums[2] += length * row;
+		double area = 0.0, x = 0.0, y = 0.0; // whole numbers
+		for (const Run& run : m_runs) {
+			const double length = run.last - run.first;
+			area += length;
+			x += length * (run.first + run.last);
+			y += length * run.row;
 		}
-		shape.x = static_cast<int>(sums[1] / sums[0]);
-		shape.y = static_cast<int>(sums[2] / sums[0]);
-		shape.size = std::ilogb(std::pow(static_cast<double>(sums[0]), 4));
+		shape.x = static_cast<int>(0.5 * x / area);
+		shape.y = static_cast<int>(y / area);
+		shape.size = std::ilogb(area * area * area * area);
 		std::partial_sum(m_longer.rbegin(), m_longer.rend(), m_longer.rbegin());
 		shape.runs.resize(m_runs.size());
 		for (const Run& run : m_runs)
@@ -286,13 +288,13 @@ public:
 			if (begin >= end)
 				continue;
 			std::uint64_t* blocked = m_blocked[0];
-			const std::array<int, 2> words{begin / kWordBits, (end - 1) / kWordBits + 1};
-			std::fill(blocked + words[0], blocked + words[1], 0);
+			const int firstWord = begin / kWordBits, words = (end - 1) / kWordBits + 1;
+			std::fill(blocked + firstWord, blocked + words, 0);
 			fill(blocked, begin - begin % kWordBits, begin);
-			fill(blocked, end, words[1] * kWordBits);
+			fill(blocked, end, words * kWordBits);
 			bool isFull = false;
 			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
-				isFull = block(m_runs[i], y, words);
+				isFull = block(m_runs[i], y, firstWord, words);
 				++m_work;
 				if (isFull)
 					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
@@ -301,11 +303,8 @@ public:
 				continue;
 			const int x = nextCell(blocked, begin, end, false);
 			const int right = x + shape.width, top = y + shape.height;
-			const int middleX = x + shape.x, middleY = y + shape.y;
-			const Cost cost{
-				std::max({m_side, right, top}),
-				std::max(right, top),
-				middleX * middleX + middleY * middleY};
+			const int reach = std::max(right, top), toX = x + shape.x, toY = y + shape.y;
+			const Cost cost{std::max(m_side, reach), reach, toX * toX + toY * toY};
 			if (cost < best.cost)
 				best = {cost, &shape, x, y};
 		}
@@ -335,15 +334,15 @@ private:
 
 	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
 
-	/// Adds the x at which \p run meets cells that are taken, in \p words from the first to before the last.
+	/// Adds the x at which \p run meets cells that are taken, in words from one to before \p words.
 	/// \return whether all are blocked now
-	bool block(const Run& run, int y, const std::array<int, 2>& words)
+	bool block(const Run& run, int y, int firstWord, int words)
 	{
 		const std::uint64_t* taken = rowAt(y + run.row, run.level);
 		const int first = run.first, last = run.last - (1 << run.level);
 		std::uint64_t* blocked = m_blocked[0];
 		std::uint64_t all = ~std::uint64_t{0};
-		for (int i = words[0]; i < words[1]; ++i)
+		for (int i = firstWord; i < words; ++i)
 			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
 								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
 		return all == ~std::uint64_t{0};
@@ -363,15 +362,6 @@ double areaOf(const Outline& outline)
 	for (const auto& side : outline)
 		doubled += doubledArea(outline.front()[0], side[0], side[1]);
 	return 0.5 * doubled;
-}
-
-std::vector<Point2> pointsOf(const Outline& outline)
-{
-	std::vector<Point2> points;
-	points.reserve(outline.size());
-	for (const auto& side : outline)
-		points.push_back(side[0]);
-	return points;
 }
 
 using Order = std::vector<std::size_t>; // of outlines
@@ -398,7 +388,11 @@ Order orderOf(const std::vector<Outline>& outlines, double side)
 
 std::complex<double> turnToMinExtent(const Outline& outline)
 {
-	const OrientedRectangle r = minExtentRectangle(pointsOf(outline));
+	std::vector<Point2> points;
+	points.reserve(outline.size());
+	for (const auto& side : outline)
+		points.push_back(side[0]);
+	const OrientedRectangle r = minExtentRectangle(std::move(points));
 	return {r.cosine, -r.sine};
 }
 
@@ -412,10 +406,10 @@ std::complex<double> rationalTurn(int numerator, int denominator)
 /// Outlines as they were placed.
 struct Try
 {
-	int side; ///< of the square
+	int side = 0; ///< of the square
 	Order order;
 	std::vector<Motion> motions; ///< [outline]
-	std::size_t last;            ///< outline that reaches farthest, or that has no place
+	std::size_t last = 0;        ///< outline that reaches farthest, or that has no place
 };
 
 /// Places outlines one after the other where the square stays smallest and below \p side. What is about as large as
@@ -441,10 +435,7 @@ Try place(
 			canvas.look(first, 0, spot);
 		else
 			for (const Shape& shape : shapes[i])
-				canvas.look(
-					shape,
-					reached[shapes[i][0].size] - 2 * std::max(shape.width, shape.height),
-					spot);
+				canvas.look(shape, reached[shapes[i][0].size] - 2 * shape.extent(), spot);
 		checkpoint();
 		if (!spot.shape)
 			return {0, order, {}, i};
@@ -508,17 +499,10 @@ std::vector<Motion> packOutlines(
 	Canvas canvas(coarseSide);
 	std::vector<Try> tries;
 	int minSide = coarseSide + 1;
-	for (std::size_t t = 0; t < kTries && canvas.work() <= kMaxWork; ++t) {
-		if (firsts.empty())
-			return {};
+	for (std::size_t t = 0; t < kTries && canvas.work() <= kMaxWork && !firsts.empty(); ++t) {
 		const Shape& first = shapes[largest][firsts[t % firsts.size()]];
-		Try next = place(
-			order,
-			first,
-			shapes,
-			side / coarseSide,
-			std::min(minSide + kSlack, coarseSide + 1),
-			canvas);
+		const int below = std::min(minSide + kSlack, coarseSide + 1);
+		Try next = place(order, first, shapes, side / coarseSide, below, canvas);
 		// Earlier the next time, but not before the largest.
 		const auto last = std::find(order.begin(), order.end(), next.last);
 		std::rotate(order.begin() + (last - order.begin() + 1) / 2, last, last + 1);
@@ -533,20 +517,30 @@ std::vector<Motion> packOutlines(
 	if (tries.empty())
 		return {};
 
-	// In the turns that were found; finer cells may find other places.
-	Drawing fine(fineSide, minSide * side / coarseSide, reach);
+	// In the turns that were found, in finer cells, which may have other places, as long as the square gets smaller.
+	double square = minSide * side / coarseSide;
 	Canvas fineCanvas(fineSide);
-	minSide = fineSide + 1;
 	std::vector<Motion> best = tries.front().motions;
-	for (const Try& t : tries) {
+	for (auto t = tries.begin(); t != tries.end();) {
+		Drawing fine(fineSide, square, reach);
+		bool fits = true;
 		for (std::size_t i = 0; i < outlines.size(); ++i) {
 			shapes[i].resize(1);
-			fine.draw(outlines[i], t.motions[i].turn, shapes[i].front());
+			fits = fits && fine.draw(outlines[i], t->motions[i].turn, shapes[i][0]);
 		}
-		Try next =
-			place(t.order, shapes[largest].front(), shapes, fine.cell(), minSide, fineCanvas);
-		if (!next.motions.empty()) {
-			minSide = next.side;
+		Try next;
+		if (fits)
+			next = place(
+				t->order,
+				shapes[largest][0],
+				shapes,
+				fine.cell(),
+				fineSide - fineSide / kGains,
+				fineCanvas);
+		if (next.motions.empty())
+			++t;
+		else {
+			square = next.side * fine.cell();
 			best = std::move(next.motions);
 		}
 	}

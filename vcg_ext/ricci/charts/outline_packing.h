@@ -14,10 +14,11 @@ namespace ricci {
 int coarseCells(std::size_t outlines);
 
 /// Packs outlines into a square from the origin, by cells that they touch, one after the other. Each goes
-/// where the square that holds all so far is smallest, also in holes of others. The largest is the first, at
+/// where the square that holds all so far is smallest, also in holes and bays of others. The largest is the first, at
 /// several angles; of the others the one that reached farthest comes earlier the next time. Orders are tried in
-/// coarse cells, the best again in fine ones. The same outlines always get the same places: turns are rational
-/// points of the circle.
+/// coarse cells, the best again in fine ones, as long as the square gets smaller. Cells are smaller where there are
+/// more outlines, and time grows with their number about as its power 1.5. The same outlines always get the same
+/// places: turns are rational points of the circle.
 /// \param outlines not empty, none without sides
 /// \param turns [outline]
 /// \param side of the square

@@ -32,6 +32,9 @@ constexpr double kUprightCost = 0.1;
 /// A chart is placed by its outline if its box is longer than so many of the cells in which places are sought.
 constexpr double kMinOutlineCells = 3.0;
 
+/// A square of cells, which take more room than outlines do, is wider by this factor than that of the boxes.
+constexpr double kWider = 1.1;
+
 /// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
 /// that the chart's triangles want: to be given a height they lie side by side in two directions.
 /// \param side of a square that holds all
@@ -163,7 +166,7 @@ struct OutlineTask
 };
 
 /// The largest charts by their outlines, the others in one box.
-/// \return without motions where they do not fit into the square of the task
+/// \return without motions where they need more than that square and some more
 Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
 	const auto& [mesh, triangles, boxes, isThin, isUpright, side, padding] = task;
@@ -213,7 +216,8 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 		outlines.push_back(borderOf(ofSmall));
 		turnsOf.push_back(ChartTurns::Quarter); // their boxes stay upright
 	}
-	const std::vector<Motion> motions = packOutlines(outlines, turnsOf, side - padding, padding);
+	const std::vector<Motion> motions =
+		packOutlines(outlines, turnsOf, kWider * side - padding, padding);
 	if (motions.empty())
 		return {};
 	Packing packing;
