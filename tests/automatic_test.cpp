@@ -216,6 +216,49 @@ TEST(Automatic, IsReported)
 	EXPECT_TRUE(both.choice.empty());
 }
 
+/// Rulings of cylinders and prisms come out straight and parallel, those of a cone straight.
+TEST(Straight, LinesOfSurfacesThatUnroll)
+{
+	constexpr int kRows = 10;
+	for (const int sides : {5, 24})
+		for (const double widening : {0.0, 0.1}) {
+			SCOPED_TRACE(std::to_string(sides) + " sides, widening " + std::to_string(widening));
+			const SurfaceMesh mesh =
+				grid(sides, kRows, Ends::Joined, Ends::Open, [=](int i, int j) -> Point3 {
+					const double a = 2 * kPi * i / sides, r = 1.0 + widening * j;
+					return {r * std::cos(a), r * std::sin(a), 0.3 * j};
+				});
+			const FlatResult map = run(mesh, Options());
+			expectIsometric(mesh, map.uv, map.report);
+			ASSERT_EQ(map.report.charts, 1);
+			// Directions of the pieces of each ruling, as the faces on either side of it show them.
+			std::map<std::pair<int, bool>, std::vector<Point2>> pieces;
+			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+				for (std::size_t k = 0; k < 3; ++k) {
+					const Point3& from = mesh.positions[at(mesh.triangles[f][k])];
+					const Point3& to = mesh.positions[at(mesh.triangles[f][(k + 1) % 3])];
+					const Point3 along = to - from;
+					if (std::abs(from[0] * to[1] - from[1] * to[0]) > 1e-9)
+						continue;
+					const int ruling = static_cast<int>(
+						std::lround(std::atan2(from[1], from[0]) * sides / (2 * kPi)));
+					const bool isUp = along[2] > 0.0;
+					const Point2 d = map.uv[f][(k + 1) % 3] - map.uv[f][k];
+					pieces[{ruling, isUp}].push_back((isUp ? 1.0 : -1.0) / length(d) * d);
+				}
+			EXPECT_EQ(pieces.size(), at(2 * sides));
+			const Point2 first = pieces.begin()->second.front();
+			for (const auto& [ruling, directions] : pieces) {
+				ASSERT_EQ(directions.size(), at(kRows));
+				for (const Point2& d : directions) {
+					EXPECT_NEAR(cross(d, directions.front()), 0.0, 1e-10);
+					if (widening == 0.0)
+						EXPECT_NEAR(cross(d, first), 0.0, 1e-10);
+				}
+			}
+		}
+}
+
 /// A box is its net: of the 12 edges 5 are joined, the longest that make a tree of its faces.
 TEST(Unfolded, ABoxIsItsNet)
 {

@@ -70,6 +70,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 	differ by quarter turns.
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
+- chart_rotation = Any | Chart rotation | None; Right angles; Any
+	How charts may be rotated for packing: not at all, by right angles (pixel art, lightmaps), or by any angle.
 - sharp_angle = 30 | Sharp angle (degrees) | float
 	The seams 'Sharp edges' are those at which the surface bends by more than this.
 - join_vertices = Automatic | Join split vertices | Automatic; Never; Always
@@ -414,6 +416,7 @@ Settings readSettings(const Parameters& par)
 	readChoice(par, "cone_rounding", settings.flow.cones.rounding);
 	settings.flow.freeBoundary = valueOf<bool>(par, "free_boundary");
 	settings.flow.seamHiding = valueOf<double>(par, "seam_hiding");
+	readChoice(par, "chart_rotation", settings.flow.turns);
 	settings.flow.normalizeUV = valueOf<bool>(par, "normalize_uv");
 	const int texels = settings.texture.size > 0 ? settings.texture.size : kMaxTextureSize;
 	const int most = static_cast<int>(ricci::kMaxChartMargin * texels);

@@ -58,6 +58,7 @@ CHOICES = {"target_curvature": TARGET, "seams": SEAMS, "method": METHOD,
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],
            "holes": ["Boundaries", "Capped", "Short ones capped"]}
 RARE_CHOICES = {"cone_rounding": ["Free", "Multiples of pi/2"],
+                "chart_rotation": ["None", "Right angles", "Any"],
                 "join_vertices": ["Automatic", "Never", "Always"]}
 OPTIONS = ("options", "String", "")
 PARAMETERS = [
@@ -71,7 +72,7 @@ COMMONLY_RARE = [
     ("sharp_angle", "Float", 30.0), ("join_vertices", "Enum", 0), ("colorize", "Bool", False),
     ("report", "String", ""), ("time_limit", "Float", 0.0)]
 RARE = [("cone_count", "Int", 0), ("cone_rounding", "Enum", 0), ("seam_hiding", "Float", 0.0),
-        *COMMONLY_RARE]
+        ("chart_rotation", "Enum", 2), *COMMONLY_RARE]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",

@@ -880,6 +880,27 @@ class Functions(unittest.TestCase):
             apart = flatten(path, join_vertices="Never")
             self.assertEqual((apart.components, apart.joined_edges), (len(faces), 0))
 
+    def test_chart_rotation(self):
+        """Islands that are only packed turn as they may; all are scaled alike."""
+        vertices, faces = arrays(meshes.plane(6))
+        uv, cell = vertices[faces][..., :2].copy(), numpy.arange(len(faces)) // 18
+        for chart in range(4):  # 18 faces each, at angles and places of their own
+            turn = numpy.exp(1j * (0.3 + chart))
+            z = (uv[cell == chart] @ [1, 1j]) * turn + 20 * chart
+            uv[cell == chart] = numpy.stack([z.real, z.imag], axis=-1)
+        seen = {}
+        for rotation, step in (("None", 2 * numpy.pi), ("Right angles", numpy.pi / 2), ("Any", None)):
+            result = flatten(vertices, faces, uv=uv, charts="As they are, only packed",
+                             chart_rotation=rotation)
+            sides = [(w[:, 1] - w[:, 0]) @ [1, 1j] for w in (result.uv, uv)]
+            change = sides[0] / sides[1]
+            self.assertLess(numpy.abs(numpy.abs(change) / numpy.abs(change[0]) - 1).max(), 1e-4)  # floats
+            seen[rotation] = numpy.angle(change)
+            if step:
+                off = numpy.abs(numpy.exp(2j * numpy.pi * seen[rotation] / step) - 1)
+                self.assertLess(off.max(), 1e-3)
+        self.assertGreater(numpy.abs(numpy.exp(4j * seen["Any"]) - 1).max(), 0.1)
+
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))
         self.assertLessEqual(set(common.ALWAYS), set(result.results))

@@ -71,7 +71,7 @@ void checkFlowOptions(const FlowOptions& options)
 template<class Flatten>
 void mapComponents(const Flatten& flatten, WholeMap& whole)
 {
-	appendComponents(whole.opened, whole.components, flatten, whole.map);
+	appendComponents(whole.opened, whole.values, whole.components, flatten, whole.map);
 	whole.map.report.converged = true;
 	advance(kComponentsDone, "Measuring the distortion");
 }
@@ -121,6 +121,7 @@ Parametrization mapBeside(
 	leftOut.targetCurvature.resize(whole.map.u.size());
 	appendComponents(
 		whole.opened,
+		{},
 		components,
 		[&](const Component& component) { return mapToPlane(component, {}, inPlane); },
 		leftOut);

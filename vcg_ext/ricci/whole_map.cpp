@@ -9,9 +9,12 @@
 #include "mesh/triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <exception>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -62,32 +65,95 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
+/// Sides of a copy differ by less than this share: by the rounding of coordinates that are stored as floats.
+constexpr double kSameLength = 1e-4;
+
+/// A component is compared with so many others of its size: more kinds of one size are hardly copies.
+constexpr std::size_t kMaxKinds = 100;
+
+bool isCopy(const Component& a, const Component& b, const VertexInput& values)
+{
+	if (a.triangles != b.triangles || a.diagonal != b.diagonal || a.hole != b.hole ||
+		a.hasSeam != b.hasSeam || a.map != b.map)
+		return false;
+	const auto hasSame = [&](const auto& of) {
+		return of.empty() ||
+			   std::equal(
+				   a.vertex.begin(),
+				   a.vertex.end(),
+				   b.vertex.begin(),
+				   b.vertex.end(),
+				   [&](int v, int w) { return of[positionOf(v)] == of[positionOf(w)]; });
+	};
+	if (!hasSame(values.selected) || !hasSame(values.targetCurvature))
+		return false;
+	for (const Face f : a.face.indices()) {
+		const std::array<double, 3> own = a.sides(f), other = b.sides(f);
+		for (std::size_t k = 0; k < 3; ++k)
+			if (!(std::abs(own[k] - other[k]) <= kSameLength * own[k]))
+				return false;
+	}
+	return true;
+}
+
+/// [component] The first one that it is a copy of, or itself.
+std::vector<int> originals(const std::vector<Component>& components, const VertexInput& values)
+{
+	std::vector<int> original;
+	std::map<std::array<std::size_t, 2>, std::vector<int>> bySize;
+	for (const Component& component : components) {
+		const auto number = static_cast<int>(original.size());
+		std::vector<int>& others =
+			bySize[{component.triangles.size(), positionOf(component.vertex.size())}];
+		const auto found = std::find_if(others.begin(), others.end(), [&](int i) {
+			return isCopy(components[positionOf(i)], component, values);
+		});
+		original.push_back(found == others.end() ? number : *found);
+		if (found == others.end() && others.size() < kMaxKinds)
+			others.push_back(number);
+	}
+	return original;
+}
+
 /// Maps components in threads. The thread that runs it appends them in their order, as soon as they are done.
 class ComponentRuns
 {
 public:
 	ComponentRuns(
 		const OpenedMesh& opened,
+		const VertexInput& values,
 		const std::vector<Component>& components,
 		const std::function<Parametrization(const Component&)>& flatten,
 		Parametrization& whole) :
 			m_opened(opened),
 			m_components(components), m_flatten(flatten), m_whole(whole),
-			m_isSilent(silentComponents(components)), m_faces(faceCount(components)),
+			m_isSilent(silentComponents(components)), m_original(originals(components, values)),
 			m_mapped(components.size()), m_firstFailed(static_cast<int>(components.size()))
 	{
+		for (std::size_t i = 0; i < components.size(); ++i) {
+			const int original = m_original[i];
+			++m_mapped[positionOf(original)].uses;
+			if (positionOf(original) != i)
+				continue;
+			m_toMap.push_back(original);
+			m_faces += components[i].triangles.size();
+		}
 	}
 
 	void run()
 	{
-		const auto count = static_cast<int>(m_components.size());
+		const auto count = static_cast<int>(m_toMap.size());
 		const bool hasRoom = hasRoomFor(estimatedMemory(m_faces, m_faces, true));
 		tasksInParallel(
 			count, hasRoom ? threadsFor(static_cast<std::int64_t>(m_faces)) : 1, [this](int i) {
-				mapOne(i);
+				mapOne(m_toMap[positionOf(i)]);
 			});
 		appendDone();
-		if (m_firstFailed < count)
+		if (const std::size_t copies = m_components.size() - m_toMap.size(); copies > 0)
+			logLine(
+				counted(copies, "component is a copy", "components are copies") +
+				" of another one and mapped like it.");
+		if (positionOf(m_firstFailed) < m_components.size())
 			std::rethrow_exception(m_mapped[positionOf(m_firstFailed)].error);
 	}
 
@@ -97,6 +163,7 @@ private:
 		std::optional<Parametrization> part;
 		std::vector<std::string> lines;
 		std::exception_ptr error;
+		int uses = 0; // by copies, too
 		std::atomic<bool> isDone{false};
 	};
 
@@ -139,7 +206,8 @@ private:
 	void appendDone()
 	{
 		for (; positionOf(m_appended) < m_mapped.size(); ++m_appended) {
-			Mapped& own = m_mapped[positionOf(m_appended)];
+			const int original = m_original[positionOf(m_appended)];
+			Mapped& own = m_mapped[positionOf(original)];
 			if (!own.isDone)
 				return;
 			logLines(own.lines);
@@ -148,8 +216,17 @@ private:
 				return;
 			if (m_isSilent[positionOf(m_appended)] != 0)
 				own.part->notes.clear();
-			append(m_components[positionOf(m_appended)], std::move(*own.part), m_whole);
-			own.part.reset();
+			const Component& component = m_components[positionOf(m_appended)];
+			if (--own.uses == 0) {
+				append(component, std::move(*own.part), m_whole);
+				own.part.reset();
+			}
+			else {
+				append(component, *own.part, m_whole);
+				own.part->report.iterations = 0; // the copies need none
+				own.part->report.flowStates.clear();
+				own.part->notes.clear();
+			}
 		}
 	}
 
@@ -158,7 +235,9 @@ private:
 	const std::function<Parametrization(const Component&)>& m_flatten;
 	Parametrization& m_whole;
 	const std::vector<char> m_isSilent;
-	const std::size_t m_faces;
+	const std::vector<int> m_original; // [component]
+	std::vector<int> m_toMap;          // components that are copies of none
+	std::size_t m_faces = 0;           // of these
 	const std::thread::id m_caller = std::this_thread::get_id();
 	std::vector<Mapped> m_mapped;
 	int m_appended = 0; // components
@@ -261,11 +340,12 @@ void nameComponent(const OpenedMesh& opened, const Component& component, Error& 
 
 void appendComponents(
 	const OpenedMesh& opened,
+	const VertexInput& values,
 	const std::vector<Component>& components,
 	const std::function<Parametrization(const Component&)>& flatten,
 	Parametrization& whole)
 {
-	ComponentRuns(opened, components, flatten, whole).run();
+	ComponentRuns(opened, values, components, flatten, whole).run();
 	if (components.size() > kDescribedComponents)
 		logLine(
 			"The log leaves out the smaller ones of " + std::to_string(components.size()) +

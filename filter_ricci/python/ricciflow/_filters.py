@@ -91,7 +91,8 @@ _ELSEWHERE = {
     "islands": "charts", "max_charts": "charts", "pack": "charts", "max_stretch": "cone_distortion",
     "stretch": "finish", "fill_holes": "holes", "resolution": "texture_size", "bake": "carry_texture",
     "texture": "carry_texture", "weld": "join_vertices", "timeout": "time_limit",
-    "angle_limit": "sharp_angle", "hard_angle": "sharp_angle", "scale_to_bounds": "normalize_uv"}
+    "angle_limit": "sharp_angle", "hard_angle": "sharp_angle", "scale_to_bounds": "normalize_uv",
+    "rotate": "chart_rotation", "rotate_charts": "chart_rotation"}
 
 _READ = {"bool": operator.index, "int": operator.index, "float": _number, "file": _file}
 
