@@ -45,9 +45,9 @@ void packCharts(
 constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 
 /// Cuts at most, and prices of cuts in a row that bring nothing, together, which further cuts do not make up: a
-/// sixth.
+/// twelfth.
 constexpr int kMaxCuts = 24;
-constexpr double kMaxLoss = 0.18;
+constexpr double kMaxLoss = 0.08;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
