@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -250,6 +252,79 @@ TEST(Components, ShareTheProgressByTheirFaces)
 	EXPECT_EQ(progress.begins[0], 0.0);
 	EXPECT_NEAR(progress.begins[1] / progress.begins[2], 72.0 / (72.0 + 84.0), 1e-12);
 	EXPECT_GT(progress.begins[2], 0.5);
+}
+
+/// Sides of the map of the first faces and of those behind them, as numbers of the plane.
+std::array<std::vector<std::complex<double>>, 2> sidesOfHalves(const FlatResult& map)
+{
+	std::array<std::vector<std::complex<double>>, 2> sides;
+	for (std::size_t f = 0; f < map.uv.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point2 side = map.uv[f][(k + 1) % 3] - map.uv[f][k];
+			sides[f < map.uv.size() / 2 ? 0 : 1].emplace_back(side[0], side[1]);
+		}
+	return sides;
+}
+
+/// A copy by a rigid motion, as floats have it, is cut and drawn alike, and solved once.
+TEST(Copies, LookAlike)
+{
+	Random random(77);
+	const auto inFloats = [](SurfaceMesh mesh) {
+		for (Point3& p : mesh.positions)
+			for (double& x : p)
+				x = static_cast<double>(static_cast<float>(x));
+		return mesh;
+	};
+	const SurfaceMesh one = inFloats(shaken(perforatedSlab(1, 3), 0.05, random));
+	const SurfaceMesh two = sideBySide(one, inFloats(turned(one, {0.3, 1.1, -0.7})), 20);
+	Options options;
+	options.normalizeUV = false;
+	const FlatResult single = run(one, options), both = run(two, options);
+	EXPECT_EQ(both.report.iterations, single.report.iterations);
+	EXPECT_EQ(both.report.charts, 2 * single.report.charts);
+	EXPECT_EQ(both.report.cones, 2 * single.report.cones);
+	EXPECT_EQ(both.report.overlappingFaces, 0);
+	const auto sides = sidesOfHalves(both);
+	std::map<int, std::complex<double>> turns; // of charts
+	for (std::size_t i = 0; i < sides[0].size(); ++i) {
+		const std::complex<double> turn = sides[1][i] / sides[0][i];
+		const int chart = both.mesh.chart[static_cast<int>(i / 3)];
+		EXPECT_NEAR(std::abs(turn), 1.0, 1e-4); // of floats in the square
+		EXPECT_NEAR(std::abs(turn - turns.emplace(chart, turn).first->second), 0.0, 1e-4);
+	}
+	EXPECT_EQ(static_cast<int>(turns.size()), single.report.charts);
+}
+
+/// What is selected on one alone is not copied; neither is another size.
+TEST(Copies, AreOnlyWhatIsEqual)
+{
+	Random random(78);
+	const SurfaceMesh one = shaken(perforatedSlab(0, 3), 0.05, random);
+	const SurfaceMesh two = sideBySide(one, one, 20);
+	const int count = static_cast<int>(one.positions.size());
+	Options options;
+	options.target = TargetCurvature::SelectedCones;
+	VertexInput input;
+	input.selected.assign(two.positions.size(), 0);
+	const auto select = [&](int first) {
+		for (const int v : {0, 5, 9, 14})
+			input.selected[at(first + v)] = 1;
+	};
+	select(0);
+	select(count);
+	EXPECT_EQ(run(two, options, input).report.cones, 8);
+	input.selected[at(count + 14)] = 0;
+	input.selected[at(count + 15)] = 1;
+	const FlatResult other = run(two, options, input);
+	EXPECT_NEAR(other.targetCurvature[at(count + 15)], kPi, 1e-9);
+	EXPECT_NEAR(other.targetCurvature[at(count + 14)], 0.0, 1e-9);
+
+	SurfaceMesh larger = one;
+	for (Point3& p : larger.positions)
+		p = 1.001 * p;
+	const Report report = run(sideBySide(one, larger, 20), Options()).report;
+	EXPECT_GT(report.iterations, run(one, Options()).report.iterations);
 }
 
 } // namespace

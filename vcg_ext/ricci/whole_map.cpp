@@ -65,8 +65,22 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
-/// Sides of a copy differ by less than this share: by the rounding of coordinates that are stored as floats.
-constexpr double kSameLength = 1e-4;
+/// What sides of a component may differ by from those of a copy: coordinates that are all floats have been rounded to
+/// floats, others to doubles, and a motion has some more roundings. Nothing where lengths are given.
+double lengthNoise(const Component& component)
+{
+	double largest = 0.0;
+	bool areFloats = true;
+	for (const Point3& p : component.positions)
+		for (const double x : p) {
+			largest = std::max(largest, std::abs(x));
+			areFloats = areFloats && roundedToFloat(x) == x;
+		}
+	return component.lengths.empty() ? largest * (areFloats ? 0x1p-22 : 0x1p-50) : 0.0;
+}
+
+/// But by no larger share of the side, where coordinates are far from 0.
+constexpr double kMaxNoise = 1e-3;
 
 /// A component is compared with so many others of its size: more kinds of one size are hardly copies.
 constexpr std::size_t kMaxKinds = 100;
@@ -87,10 +101,11 @@ bool isCopy(const Component& a, const Component& b, const VertexInput& values)
 	};
 	if (!hasSame(values.selected) || !hasSame(values.targetCurvature))
 		return false;
+	const double noise = lengthNoise(a) + lengthNoise(b);
 	for (const Face f : a.face.indices()) {
 		const std::array<double, 3> own = a.sides(f), other = b.sides(f);
 		for (std::size_t k = 0; k < 3; ++k)
-			if (!(std::abs(own[k] - other[k]) <= kSameLength * own[k]))
+			if (!(std::abs(own[k] - other[k]) <= std::min(noise, kMaxNoise * own[k])))
 				return false;
 	}
 	return true;

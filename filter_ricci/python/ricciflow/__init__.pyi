@@ -3,7 +3,7 @@
 # Made by document_filters.py.
 
 import os
-from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union, overload
 
 import numpy
 import numpy.typing
@@ -151,6 +151,10 @@ class Flattening(Parametrization):
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     components: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
+    joined_edges: int
+    """edges whose faces have vertices of their own there, joined by Join split vertices"""
+    pieces_apart: int
+    """pieces that it could join and does not"""
     cut_nonmanifold_edges: int
     """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
@@ -301,6 +305,10 @@ class Uniformization(Parametrization):
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
     components: int
     """of the input, cut open where it is not an oriented manifold and at the chosen seams"""
+    joined_edges: int
+    """edges whose faces have vertices of their own there, joined by Join split vertices"""
+    pieces_apart: int
+    """pieces that it could join and does not"""
     cut_nonmanifold_edges: int
     """edges cut because they have more than two faces, or two that duplicate each other"""
     split_vertices: int
@@ -392,6 +400,15 @@ class Uniformization(Parametrization):
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
+@overload
+def flatten(
+    mesh: list[MeshLike],
+    *,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
+    **parameters: Any,
+) -> list[Flattening]:
+    """Several meshes, whose charts share one square."""
+@overload
 def flatten(
     mesh: Union[MeshLike, numpy.typing.ArrayLike],
     faces: Union[numpy.typing.ArrayLike, None] = None,
@@ -465,6 +482,11 @@ def flatten(
         'Multiples of pi/2',
     ]] = 'Free',
     seam_hiding: float = 0.0,
+    chart_rotation: Union[int, Literal[
+        'None',
+        'Right angles',
+        'Any',
+    ]] = 'Any',
     sharp_angle: float = 30.0,
     join_vertices: Union[int, Literal[
         'Automatic',
@@ -512,6 +534,8 @@ def flatten(
         remeshing, whose seams differ by quarter turns.
     seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
         ten times longer).
+    chart_rotation: How charts may be rotated for packing: not at all, by right angles (pixel
+        art, lightmaps), or by any angle.
     sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
     join_vertices: Treat vertices that coincide along edges as one, as in formats that split
         them. Automatic: only if faces share almost no vertices.
@@ -523,6 +547,15 @@ def flatten(
         limit.
     """
 
+@overload
+def uniformize(
+    mesh: list[MeshLike],
+    *,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
+    **parameters: Any,
+) -> list[Uniformization]:
+    """Several meshes, whose charts share one square."""
+@overload
 def uniformize(
     mesh: Union[MeshLike, numpy.typing.ArrayLike],
     faces: Union[numpy.typing.ArrayLike, None] = None,

@@ -73,6 +73,10 @@ EUCLIDEAN_RESULTS = \
  'components': ('int',
                 'of the input, cut open where it is not an oriented manifold and at the chosen '
                 'seams'),
+ 'joined_edges': ('int',
+                  'edges whose faces have vertices of their own there, joined by Join split '
+                  'vertices'),
+ 'pieces_apart': ('int', 'pieces that it could join and does not'),
  'cut_nonmanifold_edges': ('int',
                            'edges cut because they have more than two faces, or two that '
                            'duplicate each other'),

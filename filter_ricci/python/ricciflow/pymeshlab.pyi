@@ -80,6 +80,11 @@ class MeshSet(pymeshlab.MeshSet):
             'Multiples of pi/2',
         ]] = 'Free',
         seam_hiding: float = 0.0,
+        chart_rotation: Union[int, Literal[
+            'None',
+            'Right angles',
+            'Any',
+        ]] = 'Any',
         sharp_angle: float = 30.0,
         join_vertices: Union[int, Literal[
             'Automatic',
