@@ -71,7 +71,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
-	How charts may be rotated for packing: not at all, by right angles (pixel art, lightmaps), or by any angle.
+	How charts may be rotated for packing: not at all; straight ones upright, and all by right angles (pixel art,
+	lightmaps); or by any angle.
 - sharp_angle = 30 | Sharp angle (degrees) | float
 	The seams 'Sharp edges' are those at which the surface bends by more than this.
 - join_vertices = Automatic | Join split vertices | Automatic; Never; Always

@@ -482,7 +482,7 @@ class Report(unittest.TestCase):
         many = meshes.Mesh([], [])
         for i in range(25):
             many.faces += [tuple(v + len(many.vertices) for v in face) for face in one.faces]
-            many.vertices += [(x + 2 * i, y, z) for x, y, z in one.vertices]
+            many.vertices += [((1 + i / 100) * x + 2 * i, y, z) for x, y, z in one.vertices]  # no copies
         meshes.write_ply(self.path("many.ply"), many)
         run(load(self.path("many.ply")), report="page.html")
         groups = {row["group"] for row in self.rows("page.csv") if row["table"] == "newton"}

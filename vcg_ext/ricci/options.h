@@ -163,7 +163,7 @@ using PlaceBoxes =
 /// How charts may be turned while they are packed.
 enum class ChartTurns {
 	None,    ///< as the layout leaves them
-	Quarter, ///< by right angles
+	Quarter, ///< charts whose outline is straight lie along the axes; all turn by right angles besides
 	Free     ///< charts whose outline is straight lie along the axes, others in any direction
 };
 

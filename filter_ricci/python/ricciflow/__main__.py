@@ -242,7 +242,9 @@ def folder(parser, options):
             for name in names if options.one_atlas or not _batch.is_done(
                 _batch.read_record(records[name]), name, marks[name], options.retry)]
     if options.one_atlas:
-        return atlas(options, names, jobs)
+        code = atlas(options, names, jobs)
+        _batch.summarize(out, stems)
+        return code
     if not options.quiet:
         print(f"{len(names)} {'mesh' if len(names) == 1 else 'meshes'}, {len(names) - len(jobs)} done "
               f"before, {len(jobs)} to run", flush=True)
