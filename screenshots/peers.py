@@ -5,8 +5,8 @@
 
 For each mesh: the surface under a checkerboard, and its charts below. The squares of all maps of a mesh have
 the same area on average. Seams are red. A line says how many charts there are, how long the seams are over
-the square root of the area, and E = energy + seam / 20. The energy is the symmetric Dirichlet energy by area
-at the best scale, 4 at best. The longest side of a mesh's box stands upright.
+the square root of the area, the energy, and E = energy + seam / 20. The energy is the symmetric Dirichlet
+energy by area at the best scale, 4 at best. The longest side of a mesh's box stands upright.
 
 Needs the packages numpy, pillow and pymeshlab, and bpy, xatlas and uvunwrap for their columns.
 """
@@ -154,12 +154,13 @@ def cell(surface):
         return numpy.where(square[:, None] % 2 == 1, layers.INK, tint[face]) * light[face, None]
 
     charts = f"{chart.max() + 1} charts" if chart.any() else "1 chart"
+    bent = energy(corners, flat)
     return (drawn(corners, checkerboard, seams, layers.SEAM),
             drawn(flat, lambda face, _: tint[face], places[sides[count == 1]], DARK),
-            f"{charts}, seams {seam:.1f}, E {energy(corners, flat) + seam / 20:.2f}")
+            f"{charts}, seams {seam:.1f}, energy {bent:.2f}, E {bent + seam / 20:.2f}")
 
 
-PEERS = {"": ("this filter", ricci), "bpy": ("Blender {}, smart project", smart_project),
+PEERS = {"": ("ricciflow", ricci), "bpy": ("Blender {}, smart project", smart_project),
          "xatlas": ("xatlas {}", xatlas), "uvunwrap": ("uvunwrap {}", uvunwrap)}
 
 
