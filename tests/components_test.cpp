@@ -320,6 +320,14 @@ TEST(Copies, AreOnlyWhatIsEqual)
 	EXPECT_NEAR(other.targetCurvature[at(count + 15)], kPi, 1e-9);
 	EXPECT_NEAR(other.targetCurvature[at(count + 14)], 0.0, 1e-9);
 
+	// As long sides, but mirrored.
+	SurfaceMesh mirrored = one;
+	for (Point3& p : mirrored.positions)
+		p[0] = -p[0];
+	EXPECT_GT(
+		run(sideBySide(one, mirrored, 20), Options()).report.iterations,
+		run(one, Options()).report.iterations);
+
 	SurfaceMesh larger = one;
 	for (Point3& p : larger.positions)
 		p = 1.001 * p;

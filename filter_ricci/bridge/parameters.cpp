@@ -71,8 +71,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
-	How charts may be rotated for packing: not at all; straight ones upright, and all by right angles (pixel art,
-	lightmaps); or by any angle.
+	How charts rotate for packing: not at all (then none is cut for it); straight ones upright, others by right angles; or
+	by any angle.
 - sharp_angle = 30 | Sharp angle (degrees) | float
 	The seams 'Sharp edges' are those at which the surface bends by more than this.
 - join_vertices = Automatic | Join split vertices | Automatic; Never; Always
@@ -419,7 +419,9 @@ Settings readSettings(const Parameters& par)
 	settings.flow.seamHiding = valueOf<double>(par, "seam_hiding");
 	readChoice(par, "chart_rotation", settings.flow.turns);
 	settings.flow.normalizeUV = valueOf<bool>(par, "normalize_uv");
-	const int texels = settings.texture.size > 0 ? settings.texture.size : kMaxTextureSize;
+	const int texels = settings.texture.size > 0       ? settings.texture.size
+					   : settings.texture.file.empty() ? TextureSettings().size
+													   : kMaxTextureSize;
 	const int most = static_cast<int>(ricci::kMaxChartMargin * texels);
 	settings.padding = checked(par, "padding", 0, most, "pixels, a quarter of {texture_size}");
 	readChoice(par, "holes", settings.flow.holes);

@@ -242,9 +242,10 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	const double padding = resultOf<double>(results, "padding_pixels");
 	if (padding < 0.999 * valueOf<int>(par, "padding"))
 		lines.push_back(
-			"There are too many charts for {padding} " +
-			std::to_string(valueOf<int>(par, "padding")) + ": they are " +
-			ricci::numberText(padding, 2) + " pixels apart. Raise {texture_size}.");
+			"The charts are " + ricci::numberText(padding, 3) + " pixels apart, not {padding} " +
+			std::to_string(valueOf<int>(par, "padding")) +
+			": there are too many, or it is more than a quarter of the texture. Raise "
+			"{texture_size}.");
 	const bool isAutomatic = is("target_curvature", 0);
 	const double areas = resultOf<double>(results, "area_distortion_mean");
 	const double occupancy = resultOf<double>(results, "occupancy");
@@ -291,7 +292,9 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		tell("texture_size", !isPadded, "{carry_texture} is empty.");
 		tell("texture_size", isPadded && is("texture_size", 0), "{padding} is of 2048 pixels.");
 	}
-	const bool cutsSharp = is("seams", static_cast<int>(Seams::Sharp));
+	const bool areGiven =
+		filter == Euclidean && is("charts", static_cast<int>(ricci::Charts::AsGiven));
+	const bool cutsSharp = !areGiven && is("seams", static_cast<int>(Seams::Sharp));
 	tell("sharp_angle", !cutsSharp, "only the seams 'Sharp edges' read it.");
 	tell(
 		"seams",
@@ -301,7 +304,7 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		"finish",
 		!is("method", static_cast<int>(ricci::Method::IntrinsicFlips)),
 		"it needs the method 'Intrinsic flips'.");
-	tell("free_boundary", loops == 0, "the surface is closed.");
+	tell("free_boundary", !areGiven && loops == 0, "the surface is closed.");
 	if (filter == Hyperbolic) {
 		tell(
 			"cone_angle",
@@ -309,10 +312,10 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 			"only 'Cones at selected vertices' reads it.");
 		return lines;
 	}
-	if (is("charts", static_cast<int>(ricci::Charts::AsGiven))) {
+	if (areGiven) {
 		const std::string ofFlow =
 			" target_curvature cone_distortion cone_count cone_rounding seam_hiding holes "
-			"output_triangulation finish method ";
+			"output_triangulation finish method epsilon free_boundary ";
 		const std::string why = "the charts stay as they are.";
 		for (const Parameter& p : par)
 			tell(p.name.c_str(), ofFlow.find(" " + p.name + " ") != std::string::npos, why);
@@ -328,6 +331,10 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		"cone_distortion",
 		placesCones && valueOf<int>(par, "cone_count") > 0,
 		"{cone_count} says how many cones are placed.");
+	tell(
+		"chart_rotation",
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle)),
+		"a rectangle stays upright.");
 	tell("holes", loops < 2, "there is no hole besides the outer boundary.");
 	return lines;
 }

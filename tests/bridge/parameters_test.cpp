@@ -181,13 +181,14 @@ TEST(Parameters, PaddingFitsIntoTheTexture)
 		findParameter(parameters, "texture_size")->value = size;
 		return refusal([&] { readSettings(parameters); });
 	};
-	EXPECT_EQ(read(512, 2048) + read(4, 16) + read(0, 0) + read(4096, 0), "");
+	EXPECT_EQ(read(512, 2048) + read(4, 16) + read(0, 0) + read(512, 0), "");
 	for (const auto& [padding, size] :
-		 {std::pair(513, 2048), std::pair(-1, 2048), std::pair(5, 16)})
+		 {std::pair(513, 2048), std::pair(-1, 2048), std::pair(5, 16), std::pair(513, 0)})
 		EXPECT_EQ(
 			read(padding, size),
 			"The value " + std::to_string(padding) + " of {padding} cannot be used. Use 0 to " +
-				std::to_string(size / 4) + " pixels, a quarter of {texture_size}.");
+				std::to_string((size > 0 ? size : 2048) / 4) +
+				" pixels, a quarter of {texture_size}.");
 }
 
 } // namespace

@@ -396,8 +396,19 @@ class Batch(unittest.TestCase):
                 for x, y, _ in textures.texels_in(wedge, 256, 256):
                     self.assertEqual(owner.setdefault((x, y), name), name)
         self.assertEqual(set(owner.values()), set(names))
-        code, text = self.batch("--one-atlas", "--quiet")
+        code, text = self.batch("--one-atlas", "--quiet", "--layers", "Flat mesh")
         self.assertEqual((code, text), (0, ""))
+        layer = meshes.read_ply(os.path.join(self.out, "atlas.flat.ply"))
+        self.assertEqual(len(layer.faces), len(meshes.torus().faces) + len(meshes.hill().faces))
+        code, text = self.batch("--one-atlas", "--scheduler", "local")
+        self.assertEqual(code, 2)
+        self.assertIn("--scheduler does not go with --one-atlas", text)
+        self.write("c.ply", meshes.with_nan(meshes.hill()))
+        code, text = self.batch("--one-atlas")
+        self.assertEqual(code, 1)
+        self.assertIn("refused: ", text)
+        self.assertEqual({record["state"] for record in self.records().values()}, {"refused"})
+        self.assertEqual([name for name in os.listdir(self.out) if name.endswith(".ply")], [])
 
     def test_one_atlas_of_one_file(self):
         self.write("a.ply", meshes.torus())

@@ -539,7 +539,7 @@ class Functions(unittest.TestCase):
         vertices = numpy.concatenate([arrays(meshes.hill(2))[0] + [5.0 * i, 0, 0] for i in range(36)])
         count = len(vertices) // 36
         faces = numpy.concatenate([arrays(meshes.hill(2))[1] + count * i for i in range(36)])
-        with self.assertWarnsRegex(ricciflow.RicciWarning, "too many charts for padding 512: .* Raise texture_size"):
+        with self.assertWarnsRegex(ricciflow.RicciWarning, "pixels apart, not padding 512: .* Raise texture_size"):
             result = flatten(vertices, faces, padding=512)
         self.assertLess(result.padding_pixels, 512)
         self.assertGreaterEqual(result.uv.min(), result.padding_pixels / 2048 - 1e-6)
@@ -1061,6 +1061,27 @@ class Together(unittest.TestCase):
             flatten([one, one], selected=[1])
         with self.assertRaises(ricciflow.Refused):
             flatten([one, arrays(meshes.with_nan(meshes.hill()))])
+        with self.assertRaisesRegex(ricciflow.Refused, "no texture coordinates: mesh 1, mesh 2"):
+            flatten([one, one], charts="As they are, only packed")
+        with self.assertRaisesRegex(ValueError, "Mesh 2 of 2: .*indices from 0"):
+            flatten([one, (one[0][:3], one[1])])
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("a.ply", "b.obj")]
+            textures.write_ply(paths[0], meshes.hill(), colours=[(255, 0, 0, 255)] * len(one[0]))
+            with open(paths[1], "w", encoding="utf-8") as target:
+                target.write("mtllib b.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            with open(os.path.join(folder, "b.mtl"), "w", encoding="utf-8") as target:
+                target.write("newmtl m\nKd 0 0 1\n")
+            with self.assertRaisesRegex(ricciflow.Refused, r"a\.ply.*b\.obj.*Bake them apart"):
+                flatten(paths, carry_texture=os.path.join(folder, "c.png"))
+            self.assertEqual([len(result.faces) for result in flatten(paths)], [len(one[1]), 1])
+
+    @needs_pymeshlab
+    def test_meshes_of_pymeshlab(self):
+        parts = [arrays(meshes.hill()), arrays(meshes.torus())]
+        hosted = flatten([pymeshlab.Mesh(*part) for part in parts])
+        for one, other in zip(hosted, flatten(parts)):
+            self.assertTrue(numpy.array_equal(one.uv, other.uv))
 
 
 class Xatlas(unittest.TestCase):

@@ -16,9 +16,9 @@ where it stopped; a mesh runs again where mesh, parameters or library have chang
 package and both folders have to be on every machine, the folders at the same path.
 
 With --one-atlas the charts of all meshes of the folder share one square at one scale, for one texture. It is
-one run in this process, from the beginning each time.
+one run in this process, from the beginning each time; one mesh that is refused ends it.
 
-Layers (--layers "Flat mesh" and others) are files beside OUT: scan.flat.ply.
+Layers (--layers "Flat mesh" and others) are files beside OUT: scan.flat.ply; of one atlas atlas.flat.ply.
 
 Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 2 a slip in the command,
 130 interrupted.
@@ -218,6 +218,9 @@ def one_mesh(options):
 
 def folder(parser, options):
     source, out = os.path.abspath(options.mesh), os.path.abspath(options.out)
+    for option in ("timeout", "workers", "scheduler", "retry") if options.one_atlas else ():
+        if getattr(options, option) != parser.get_default(option):
+            parser.error(f"--{option} does not go with --one-atlas, which is one run: --time-limit ends it.")
     names, others = _batch.find_meshes(source)
     if others and not options.quiet:
         print("Skipped: " + ", ".join(f"{n} x {ending}" for ending, n in sorted(others.items())))
@@ -281,8 +284,17 @@ def atlas(options, names, jobs):
             for job, result in zip(jobs, results):
                 os.makedirs(os.path.dirname(job["target"]), exist_ok=True)
                 result.save(job["target"])
-        except (Refused, ValueError) as problem:
-            print(f"refused: {problem}", file=sys.stderr)
+            layers = [f"atlas.{kind}.ply" for kind in results[0].layers]
+            for kind, name in zip(results[0].layers, layers):
+                results[0].save_layer(kind, os.path.join(os.path.dirname(jobs[0]["target"]), name))
+        except (Refused, ValueError, OSError) as problem:
+            state = "unreadable" if isinstance(problem, OSError) else "refused"
+            reason = " ".join(_batch.in_words(problem).split())
+            print(f"{state}: {reason}", file=sys.stderr)
+            for job in jobs:
+                _batch.clear(job["record"])
+                _batch.write_record(job["record"], {"mesh": job["name"], "state": state, "reason": reason,
+                                                    "fingerprint": job["fingerprint"], "files": []})
             return 1
     record.update(seconds=time.monotonic() - started, results=results[0].results,
                   messages=[str(one.message) for one in said])
@@ -293,7 +305,7 @@ def atlas(options, names, jobs):
         _batch.write_record(job["record"], {
             "mesh": job["name"], "state": "solved", "fingerprint": job["fingerprint"],
             "seconds": round(record["seconds"], 3), "messages": record["messages"],
-            "files": [os.path.basename(job["target"])],
+            "files": [os.path.basename(job["target"]), *(layers if job is jobs[0] else ())],
             "results": {key: getattr(value, "tolist", lambda v=value: v)()
                         for key, value in record["results"].items()}})
     return 0

@@ -194,12 +194,35 @@ def are_several(mesh):
     """Whether it is a list of meshes, not vertices and faces."""
     def is_mesh(item):
         return (isinstance(item, (str, os.PathLike, Given)) or hasattr(item, "vertices") or
-                isinstance(item, (tuple, list)) and len(item) == 2 and numpy.ndim(item[0]) == 2)
+                hasattr(item, "to_geometry") or host_of(item) is not None or isinstance(item, (tuple, list)) and len(item) == 2 and numpy.ndim(item[0]) == 2)
     return isinstance(mesh, list) and len(mesh) > 0 and all(is_mesh(item) for item in mesh)
 
 
-def together(meshes):
-    """One mesh of several."""
+def given_one(item, number, count):
+    """One of several meshes."""
+    host = host_of(item)
+    try:
+        if host is not None:
+            return host.given(item.current_mesh() if hasattr(item, "current_mesh") else item)
+        return given(item, None)
+    except (TypeError, ValueError) as problem:
+        raise type(problem)(f"Mesh {number} of {count}: {problem}") from None
+
+
+def together(meshes, parameters):
+    """One mesh of several. What one of them lacks and the run needs is a Refused."""
+    def names(has):
+        return ", ".join(mesh.name or f"mesh {i}" for i, mesh in enumerate(meshes, 1) if has(mesh.arrays.get))
+    bare = names(lambda get: get("uv") is None)
+    if bare and (parameters.get("charts") == "As they are, only packed" or
+                 parameters.get("seams") == "Existing texture seams"):
+        raise Refused(f"The charts or seams are to be those of the meshes, but these have no texture "
+                      f"coordinates: {bare}.")
+    by_faces = names(lambda get: get("face_colors") is not None and get("vertex_colors") is None)
+    by_vertices = names(lambda get: get("vertex_colors") is not None)
+    if parameters.get("carry_texture") and by_faces and by_vertices:
+        raise Refused("One texture cannot show colours of vertices and colours of faces: some meshes have the "
+                      f"one ({by_vertices}), others the other ({by_faces}). Bake them apart.")
     def joined(name):
         present = next(mesh.arrays[name] for mesh in meshes if mesh.arrays.get(name) is not None)
         kind, shape = present.dtype, present.shape[1:]

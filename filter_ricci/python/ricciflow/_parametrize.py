@@ -284,10 +284,11 @@ def _solve_together(function, meshes, progress, keywords, parameters):
     for name, value in keywords.items():
         if value is not None:
             raise TypeError(f"{name} is for one mesh: of several meshes, each has its own vertices and faces")
-    given = [_loading.given(mesh, None) for mesh in meshes]
+    given = [_loading.given_one(mesh, i, len(meshes)) for i, mesh in enumerate(meshes, 1)]
     if any(mesh.is_split for mesh in given):
         parameters.setdefault("join_vertices", "Always")
-    outputs, log, messages = run_arrays(number, _loading.together(given), parameters, progress)
+    outputs, log, messages = run_arrays(
+        number, _loading.together(given, parameters), parameters, progress)
     for message in messages:
         warnings.warn(message, RicciWarning, stacklevel=3)
     results, vertex, face = [], 0, 0

@@ -29,6 +29,9 @@ constexpr int kMaxAttempts = 60;
 /// mostly are one chart, stay below it; a strip ten times as long as wide fills a tenth of the square in place of a sixth.
 constexpr double kUprightCost = 0.1;
 
+/// Charts that are placed by their outlines at most: the time for them grows faster than their number.
+constexpr std::size_t kMaxOutlines = 4096;
+
 /// A chart is placed by its outline if its box is longer than so many of the cells in which places are sought.
 constexpr double kMinOutlineCells = 3.0;
 
@@ -183,7 +186,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
 	const double least = kMinOutlineCells * side / coarseCells(boxes.size());
 	for (const std::size_t i : order) {
-		const bool isLarge = !isThin[i] && boxes[i].extent() > least;
+		const bool isLarge = large.size() < kMaxOutlines && !isThin[i] && boxes[i].extent() > least;
 		(isLarge ? large : small).push_back(i);
 		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
 	}
