@@ -25,6 +25,7 @@ Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not,
 """
 
 import argparse
+import contextlib
 import errno
 import importlib.util
 import os
@@ -276,6 +277,11 @@ def atlas(options, names, jobs):
     started = time.monotonic()
     solve = uniformize if options.hyperbolic else flatten
     record = {"mesh": f"{len(names)} meshes"}
+    place = os.path.dirname(jobs[0]["target"])
+    for file in _batch.read_record(jobs[0]["record"]).get("files", ()):
+        if file.startswith("atlas."):  # layers of an earlier run
+            with contextlib.suppress(OSError):
+                os.remove(os.path.join(place, file))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RicciWarning)
         try:
@@ -286,7 +292,7 @@ def atlas(options, names, jobs):
                 result.save(job["target"])
             layers = [f"atlas.{kind}.ply" for kind in results[0].layers]
             for kind, name in zip(results[0].layers, layers):
-                results[0].save_layer(kind, os.path.join(os.path.dirname(jobs[0]["target"]), name))
+                results[0].save_layer(kind, os.path.join(place, name))
         except (Refused, ValueError, OSError) as problem:
             state = "unreadable" if isinstance(problem, OSError) else "refused"
             reason = " ".join(_batch.in_words(problem).split())
