@@ -231,8 +231,7 @@ def together(meshes, parameters):
             values = mesh.arrays.get(name)
             if values is None:
                 count = len(mesh.vertices if name == "vertex_colors" else mesh.faces)
-                is_shown = name == "picture_of_face" and mesh.pictures  # the first one, unless it is said
-                values = numpy.full((count, *shape), 0 if is_shown else _ABSENT[name], kind)
+                values = numpy.full((count, *shape), _ABSENT[name], kind)
             if name == "picture_of_face":
                 values = numpy.where(values < 0, values, values + pictures)
             pictures += len(mesh.pictures)
@@ -243,13 +242,12 @@ def together(meshes, parameters):
                   numpy.concatenate([mesh.faces + numpy.int32(start)
                                      for mesh, start in zip(meshes, first)]),
                   f"{len(meshes)} meshes")
+    for mesh in meshes:
+        if mesh.pictures and mesh.arrays.get("picture_of_face") is None:  # the first one, unless it is said
+            mesh.arrays["picture_of_face"] = numpy.zeros(len(mesh.faces), numpy.int32)
     for name in _ABSENT:
         if any(mesh.arrays.get(name) is not None for mesh in meshes):
             whole.arrays[name] = joined(name)
-    if "picture_of_face" not in whole.arrays and len(meshes) > 1 and any(m.pictures for m in meshes):
-        meshes[0].arrays["picture_of_face"] = numpy.full(
-            len(meshes[0].faces), 0 if meshes[0].pictures else -1, numpy.int32)
-        whole.arrays["picture_of_face"] = joined("picture_of_face")
     whole.pictures = [picture for mesh in meshes for picture in mesh.pictures]
     whole.messages = [message for mesh in meshes for message in mesh.messages]
     return whole
