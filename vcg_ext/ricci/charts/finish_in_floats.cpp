@@ -10,7 +10,6 @@
 #include "separate_charts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -24,9 +23,9 @@ namespace {
 /// A refinement of which more pieces are lost is not cut into so many charts.
 constexpr std::size_t kMostLost = 1000;
 
-/// What the triangles of a map have to be once they are stored: also with six decimals, in the unit square; and
-/// as floats alone.
-std::array<Validity, 2> wantedOf(const FlatMesh& mesh, bool keepsMesh)
+/// What the triangles of a map have to be once they are stored: in the unit square also with six decimals, which
+/// comes first; and as floats alone.
+std::vector<Validity> wantedOf(const FlatMesh& mesh, bool keepsMesh)
 {
 	double largest = 0.0;
 	for (const Point2& p : mesh.place)
@@ -34,10 +33,9 @@ std::array<Validity, 2> wantedOf(const FlatMesh& mesh, bool keepsMesh)
 			largest = std::max(largest, std::abs(x));
 	const double height = kMinFloatSteps * floatStep(largest);
 	const Validity inFloats{height, kWantedHeights * height, true};
-	const bool hasText = keepsMesh && largest > 0.5 && largest <= 1.0;
-	return {
-		hasText ? Validity{height, kWantedHeights * kTextStep, true, kTextStep} : inFloats,
-		inFloats};
+	if (keepsMesh && largest > 0.5 && largest <= 1.0)
+		return {{height, kWantedHeights * kTextStep, true, kTextStep}, inFloats};
+	return {inFloats};
 }
 
 /// Whether a box lies in another one, both rounded to float.
@@ -110,8 +108,8 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 {
 	const Box2 limits = boxOfCharts(map);
-	const auto wanted = wantedOf(map.mesh, rules.keepsMesh);
-	const auto& [inText, inFloats] = wanted;
+	const std::vector<Validity> wanted = wantedOf(map.mesh, rules.keepsMesh);
+	const Validity& inFloats = wanted.back();
 	const CostOfPatch overlaps = overlapCount(
 		map.mesh,
 		inFloats.height / kMinFloatSteps,
@@ -134,7 +132,7 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 		const std::vector<int> lost = badTriangles(map.mesh, inFloats);
 		if (!rules.keepsMesh && lost.size() > kMostLost)
 			throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
-		setApart(lost, inText, map);
+		setApart(lost, wanted.front(), map);
 	}
 	return done;
 }
