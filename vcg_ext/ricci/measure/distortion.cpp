@@ -278,18 +278,23 @@ FlippedCount countFlipped(const FlatMesh& mesh)
 std::vector<int> unseenTriangles(const FlatMesh& mesh)
 {
 	const double area = mesh.area(), least = kTexel * std::sqrt(area);
-	double own = 0.0;
-	std::vector<int> unseen;
+	std::vector<std::pair<double, int>> low; // heights
 	for (const int f : mesh.points.indices()) {
 		const std::array<double, 3>& l = mesh.lengths[f];
 		const double doubled = 2.0 * euclideanArea(l), longest = std::max({l[0], l[1], l[2]});
-		if (doubled < least * longest && doubled > kTiny * longest * longest) {
-			own += 0.5 * doubled;
-			unseen.push_back(f);
-		}
+		if (doubled < least * longest && doubled > kTiny * longest * longest)
+			low.emplace_back(doubled / longest, f);
 	}
-	if (!(own < kTexel * area))
-		unseen.clear();
+	std::sort(low.begin(), low.end());
+	double own = 0.0;
+	std::vector<int> unseen;
+	for (const auto& [height, f] : low) {
+		own += euclideanArea(mesh.lengths[f]);
+		if (!(own < kTexel * area))
+			break;
+		unseen.push_back(f);
+	}
+	std::sort(unseen.begin(), unseen.end());
 	return unseen;
 }
 

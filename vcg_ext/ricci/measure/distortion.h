@@ -68,8 +68,8 @@ Array<Triangle2> chordTriangles(const FlatMesh& mesh);
 /// Geodesic triangles in the Poincaré disk of the wrong orientation, or without area, as far as rounding can tell.
 int flippedInDisk(const FlatMesh& mesh);
 
-/// Triangles with an area that no texture shows: lower than a texel of the largest one, and all together of less area than a row of
-/// its texels. In increasing order; none where they have more.
+/// Triangles with an area that no texture shows: lower than a texel of the largest one, and all together of less area
+/// than a row of its texels. Where more are so low, the lowest ones. In increasing order.
 std::vector<int> unseenTriangles(const FlatMesh& mesh);
 
 /// Integrals of |J|^2 and |J^-1|^2 over a surface (FlatMesh::stretch()), and its area. unseenTriangles() are left out:
