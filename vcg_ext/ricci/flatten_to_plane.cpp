@@ -300,11 +300,6 @@ void measureBoundary(const FlatMesh& map, Report& report)
 			numberText(most, 3) + " times as long as on the mesh.");
 }
 
-int threadsOf(const Component& component)
-{
-	return threadsFor(static_cast<std::int64_t>(component.triangles.size()));
-}
-
 } // namespace
 
 FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options)
@@ -330,7 +325,7 @@ void completePlan(const Options& options, double alternative, FlowPlan& plan)
 
 Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options)
 {
-	const int threads = threadsOf(component);
+	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
 	const FlowDomain& domain = plan.domain;
 	FlowLog log;
 	FlowResult flow;
