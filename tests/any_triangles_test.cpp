@@ -96,21 +96,6 @@ TEST(AnyTriangles, UnconnectedTrianglesAreDrawnAsTheyAre)
 	}
 }
 
-TEST(AnyTriangles, APillowIsTwoTriangles)
-{
-	const SurfaceMesh mesh{{{0, 0, 1}, {3, 0, 1}, {1, 2, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-	for (const OutputTriangulation output : kOutputs) {
-		const auto r = compute(mesh, unscaled(output));
-		EXPECT_EQ(r.report.charts, 2);
-		EXPECT_EQ(r.report.duplicateFaces, 1);
-		EXPECT_EQ(r.report.splitVertices, 3);
-		EXPECT_EQ(r.report.cones, 0);
-		expectLaidFlat(mesh, output, r);
-		if (output == OutputTriangulation::KeepMesh)
-			expectApart(r, {{0}, {1}});
-	}
-}
-
 /// Two sheets that are glued, however bent along the spine, can be laid flat.
 TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
 {

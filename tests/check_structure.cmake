@@ -15,8 +15,7 @@ set(leaves error.h options.h progress.h report.h)
 set(max_lines 550)
 set(max_types 7)
 set(max_parameters 6)
-set(more_parameters
-	charts/pack.cpp numerics/cholmod_blas.cpp) # BLAS
+set(more_parameters numerics/cholmod_blas.cpp) # BLAS
 # The drivers choose by the options of the filters; the headers of the stages take what they need.
 set(naming_options charts/pack.h)
 set(host_words "MeshLab|PyMeshLab|meshlabserver|Qt[A-Z]|vcg::")

@@ -2,7 +2,6 @@
 // Seams that the caller chooses, at the façade. Where the surface is developable between its seams, its map is
 // known: an isometry.
 #include "support/expect.h"
-#include "support/random.h"
 #include "support/shapes.h"
 #include "support/written.h"
 
@@ -11,14 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -94,15 +91,6 @@ void expectCounts(const SurfaceMesh& mesh, const EdgeSet& chosen, const Report& 
 	EXPECT_EQ(report.splitVertices, 0);
 	EXPECT_EQ(report.oneSidedComponents, 0);
 	EXPECT_EQ(report.degenerateFaces, 0);
-}
-
-SurfaceMesh sphere(int rings, int around)
-{
-	std::vector<std::array<double, 2>> profile;
-	for (int i = 0; i <= rings; ++i)
-		profile.push_back({std::sin(kPi * i / rings), -std::cos(kPi * i / rings)});
-	profile.front()[0] = profile.back()[0] = 0.0;
-	return revolved(profile, around);
 }
 
 /// On the half plane in which the sphere's first meridian lies.
@@ -238,21 +226,6 @@ TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)
 	EXPECT_EQ(jumps(mesh, r), chosen);
 }
 
-TEST(ChosenSeams, AlongAllEdgesLeaveTheTriangles)
-{
-	const SurfaceMesh mesh = sphere(5, 7);
-	const Marks marks = marksOf(mesh, [](const Point3&, const Point3&) { return true; });
-	const int n = static_cast<int>(mesh.triangles.size());
-	const auto r = compute(mesh, withoutCones(), marks);
-	EXPECT_EQ(r.report.components, n);
-	EXPECT_EQ(r.report.charts, n);
-	EXPECT_EQ(r.report.cones, 0);
-	EXPECT_EQ(r.report.seamEdges, 0);
-	expectCounts(mesh, insideEdges(mesh, marks), r.report);
-	expectIsometric(mesh, wedgesOf(r), r.report);
-	EXPECT_EQ(jumps(mesh, r), insideEdges(mesh, marks));
-}
-
 /// The flow keeps the lengths along the seam, so that both halves come out at one scale.
 TEST(ChosenSeams, DivideASphereAlongItsEquator)
 {
@@ -277,22 +250,6 @@ TEST(ChosenSeams, DivideASphereAlongItsEquator)
 			}
 	params.target = TargetCurvature::Disk; // each piece is one
 	EXPECT_EQ(compute(mesh, params, marks).report.charts, 2);
-}
-
-/// In a plane both sides of a slit lie on each other.
-TEST(ChosenSeams, LeaveAPlaneAsItIs)
-{
-	const SurfaceMesh mesh = rectangle(8, 6, 8.0, 6.0);
-	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
-		return p[1] == 3.0 && q[1] == 3.0 && std::min(p[0], q[0]) > 1.5 &&
-			   std::max(p[0], q[0]) < 6.5;
-	});
-	const auto r = compute(mesh, withoutCones(), marks);
-	EXPECT_EQ(r.report.charts, 1);
-	EXPECT_EQ(r.report.boundaryLoops, 2);
-	EXPECT_EQ(r.report.seamEdges, 0);
-	expectCounts(mesh, insideEdges(mesh, marks), r.report);
-	expectIsometric(mesh, wedgesOf(r), r.report);
 }
 
 /// Corners on a seam have two places each: the four of a cylinder that is slit from end to end.
@@ -411,36 +368,6 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 		}
 		expectWritten(mesh, output, r);
 	}
-}
-
-/// It does not matter which face of an edge is marked, nor in which order its corners are.
-TEST(ChosenSeams, AreThoseOfEdges)
-{
-	const SurfaceMesh mesh = sphere(8, 10);
-	const Marks marks = marksOf(
-		mesh, [](const Point3& p, const Point3& q) { return onMeridian(p) && onMeridian(q); });
-	const auto expected = compute(mesh, withoutCones(), marks);
-	Random random(7);
-	SurfaceMesh turned = mesh;
-	Marks some = marks;
-	EdgeSet seen;
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		for (std::size_t k = 0; k < 3; ++k)
-			if (marks[f][k] && !seen.insert(edge(mesh.triangles[f], k)).second)
-				some[f][k] = 0; // marked in its first face
-		const std::size_t turns = at(random.index(3));
-		const std::array<char, 3> own = some[f];
-		for (std::size_t k = 0; k < 3; ++k) {
-			turned.triangles[f][k] = mesh.triangles[f][(k + turns) % 3];
-			some[f][k] = own[(k + turns) % 3];
-		}
-	}
-	const auto r = compute(turned, withoutCones(), some);
-	expectCounts(turned, insideEdges(turned, some), r.report);
-	EXPECT_EQ(insideEdges(turned, some), insideEdges(mesh, marks));
-	EXPECT_EQ(jumps(turned, r), jumps(mesh, expected));
-	EXPECT_NEAR(r.report.qcMean, expected.report.qcMean, 1e-6);
-	EXPECT_EQ(r.report.charts, expected.report.charts);
 }
 
 /// A seam through an edge of more than two faces divides all its sheets, and is not counted as what had to be

@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
@@ -130,32 +128,6 @@ TYPED_TEST(Facade, SixDecimalsTurnNoTriangleRound)
 	EXPECT_EQ(turnedInText(map), 0);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	EXPECT_EQ(map.report.flippedByRounding, 0);
-}
-
-/// Straight lines in place of the flow's bent ones turn triangles round on these meshes.
-TYPED_TEST(Facade, AFinishedMapHasNoTriangleTurnedRoundAsItIsStored)
-{
-	int turned = 0;
-	for (const std::uint64_t seed : {1u, 2u, 3u}) {
-		SCOPED_TRACE(seed);
-		Random random(seed);
-		TypeParam m;
-		toVcg(foldedTorus(20, 12, 3.0, random), m);
-		typename Flow<TypeParam>::Params par;
-		par.target = TargetCurvature::Flat; // cones stay where they are
-		par.finish = Finish::None;
-		turned += compute(m, par).report.flippedFaces;
-		par.finish = Finish::Repair;
-		const Report repaired = compute(m, par).report;
-		EXPECT_EQ(repaired.flippedFaces, 0);
-		EXPECT_EQ(repaired.flippedByRounding, 0);
-		par.finish = Finish::LeastDistortion;
-		const Report least = compute(m, par).report;
-		EXPECT_EQ(least.flippedFaces, 0);
-		EXPECT_EQ(least.flippedByRounding, 0);
-		EXPECT_LT(least.qcMean, repaired.qcMean);
-	}
-	EXPECT_GT(turned, 0) << "these meshes test nothing";
 }
 
 TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)

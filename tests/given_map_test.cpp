@@ -15,7 +15,6 @@
 #include <complex>
 #include <functional>
 #include <limits>
-#include <set>
 #include <vector>
 
 namespace ricci::testing {
@@ -49,11 +48,7 @@ SurfaceMesh withMap(SurfaceMesh mesh, const Placing& placing)
 /// A closed surface with bumps, whose map needs cones.
 SurfaceMesh bumpySphere()
 {
-	std::vector<std::array<double, 2>> profile;
-	for (int i = 0; i <= 24; ++i)
-		profile.push_back({std::sin(kPi * i / 24), -std::cos(kPi * i / 24)});
-	profile.front()[0] = profile.back()[0] = 0.0;
-	SurfaceMesh mesh = revolved(profile, 36);
+	SurfaceMesh mesh = sphere(24, 36);
 	for (Point3& p : mesh.positions)
 		p = (1.0 + 0.35 * std::sin(4.0 * p[0]) * std::cos(3.0 * p[1] + p[2])) * p;
 	return mesh;

@@ -2,8 +2,8 @@
 // Input at which a flow on a fixed triangulation breaks down: solved, with a map without flips, or
 // refused by a sentence.
 #include "support/expect.h"
-#include "support/flat_map.h"
 #include "support/flipped_flow.h"
+#include "support/front_door.h"
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/random_surface.h"
@@ -32,13 +32,6 @@ Options refined(TargetCurvature target, bool freeBoundary = true)
 	options.finish = Finish::None;      // the refinement is exact, except for floats
 	options.charts = Charts::OfTheFlow; // other cuts may cross faces, the flow's own seams may not
 	return options;
-}
-
-VertexInput curvatureInput(std::vector<double> curvature)
-{
-	VertexInput input;
-	input.targetCurvature = std::move(curvature);
-	return input;
 }
 
 /// Runs the whole algorithm and checks what it hands over.
@@ -206,12 +199,12 @@ TEST(HardCases, ValenceOfAThousand)
 	std::vector<double> curvature(closed.positions.size(), 0.0);
 	curvature[apex] = curvature[other] = 2 * kPi - 0.01;
 	curvature[500] = 0.02;
-	expectSolved(closed, refined(TargetCurvature::Prescribed), curvatureInput(curvature));
+	expectSolved(closed, refined(TargetCurvature::Prescribed), prescribing(curvature));
 	curvature.assign(closed.positions.size(), 0.0);
 	curvature[apex] = curvature[other] = -5.0;
 	for (int v : {0, 200, 400, 600})
 		curvature[at(v)] = (4 * kPi + 10.0) / 4;
-	expectSolved(closed, refined(TargetCurvature::Prescribed), curvatureInput(curvature));
+	expectSolved(closed, refined(TargetCurvature::Prescribed), prescribing(curvature));
 }
 
 /// Edges that share both ends with another, and loops.
@@ -241,7 +234,7 @@ TEST(HardCases, SeveralEdgesBetweenTwoVerticesAndLoops)
 		const auto found = multipleEdgesAndLoops(flow.result.metric->triangulation());
 		multiple += found.first;
 		loops += found.second;
-		expectSolved(mesh, refined(TargetCurvature::Prescribed), curvatureInput(curvature));
+		expectSolved(mesh, refined(TargetCurvature::Prescribed), prescribing(curvature));
 	}
 	EXPECT_GT(multiple, 10);
 	EXPECT_GT(loops, 3);
@@ -260,7 +253,7 @@ TEST(HardCases, SingleTriangle)
 	expectSolved(
 		triangles[1],
 		refined(TargetCurvature::Prescribed, false),
-		curvatureInput({kPi - 0.01, kPi - 0.01, 0.02}));
+		prescribing({kPi - 0.01, kPi - 0.01, 0.02}));
 }
 
 TEST(HardCases, TwoTriangles)
@@ -285,7 +278,7 @@ TEST(HardCases, TetrahedronWithThreeCones)
 		expectSolved(
 			mesh,
 			refined(TargetCurvature::Prescribed),
-			curvatureInput({2 * kPi - 0.01, 2 * kPi - 0.01, 2 * kPi - 0.01, 0.03 - 2 * kPi}));
+			prescribing({2 * kPi - 0.01, 2 * kPi - 0.01, 2 * kPi - 0.01, 0.03 - 2 * kPi}));
 	}
 }
 
@@ -306,7 +299,7 @@ TEST(HardCases, NegativeCurvatureAtAVertexOfThreeFaces)
 		SCOPED_TRACE(strength);
 		std::vector<double> curvature(mesh.positions.size(), (4 * kPi - strength) / added);
 		curvature[at(added)] = strength;
-		expectSolved(mesh, refined(TargetCurvature::Prescribed), curvatureInput(curvature));
+		expectSolved(mesh, refined(TargetCurvature::Prescribed), prescribing(curvature));
 	}
 }
 
@@ -323,7 +316,7 @@ TEST(HardCases, TangentCircles)
 TEST(HardCases, FlatHandlesRoundASmallHole)
 {
 	const SurfaceMesh mesh = withoutStars(perforatedSlab(40, 3), {0});
-	const VertexInput flat = curvatureInput(std::vector<double>(mesh.positions.size(), 0.0));
+	const VertexInput flat = prescribing(std::vector<double>(mesh.positions.size(), 0.0));
 	Options options;
 	options.target = TargetCurvature::Prescribed; // inside; the boundary is free
 	const auto error = refusalOf<InadmissibleCurvature>([&] { run(mesh, options, flat); });

@@ -6,7 +6,6 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <gtest/gtest.h>
 
@@ -132,29 +131,6 @@ TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCountedAndDivided)
 	EXPECT_EQ(twice.report.flippedFaces, 0);
 }
 
-TEST(ParametrizeHyperbolic, ConesAtSelectedVertices)
-{
-	Random random(703);
-	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
-	HyperbolicOptions options = refined();
-	options.target = HyperbolicTarget::SelectedCones;
-	options.coneAngle = kPi / 2;
-	const FlatResult map = run(sphere, options, selecting(sphere, {3, 20, 40}));
-	EXPECT_NEAR(*map.report.hyperbolicArea / (0.5 * kPi), 1.0, 1e-8);
-	EXPECT_LT(*map.report.relationError, 1e-8);
-	EXPECT_EQ(map.report.flippedFaces, 0);
-	EXPECT_EQ(map.charts[0].group.peripheral.size(), 3u);
-	// The same from vertex quality.
-	VertexInput input;
-	input.targetCurvature.assign(sphere.positions.size(), 0.0);
-	for (std::size_t v : {3u, 20u, 40u})
-		input.targetCurvature[v] = 1.5 * kPi;
-	options.target = HyperbolicTarget::Prescribed;
-	const FlatResult same = run(sphere, options, input);
-	for (std::size_t v = 0; v < map.u.size(); ++v)
-		EXPECT_NEAR(same.u[v], map.u[v], 1e-10);
-}
-
 TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 {
 	// The area is what the curvatures add up to on a torus: far below the rounding of the angles of
@@ -197,32 +173,6 @@ TEST(ParametrizeHyperbolic, ConesThatAreNearlyCusps)
 	EXPECT_EQ(run(mesh, options, input).report.flippedFaces, 0);
 }
 
-TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
-{
-	const SurfaceMesh mesh = perforatedSlab(2, 3); // no triangle breaks
-	HyperbolicOptions options;
-	options.method = Method::FixedTriangles;
-	const FlatResult map = run(mesh, options);
-	EXPECT_EQ(map.report.flips, 0);
-	EXPECT_EQ(map.report.flippedFaces, 0);
-	EXPECT_NEAR(*map.report.hyperbolicArea / (4 * kPi), 1.0, 1e-8);
-	EXPECT_LT(*map.report.relationError, 1e-8);
-	// Geodesic triangles of the disk, glued without gaps: curvature and area of the picture.
-	std::vector<double> defect(mesh.positions.size(), 2 * kPi);
-	double area = 0.0;
-	for (std::size_t f = 0; f < map.uv.size(); ++f) {
-		area += kPi;
-		for (std::size_t k = 0; k < 3; ++k) {
-			const double angle = angles(map.uv[f])[k];
-			defect[at(mesh.triangles[f][k])] -= angle;
-			area -= angle;
-		}
-	}
-	for (double K : defect)
-		EXPECT_NEAR(K, 0.0, 1e-8);
-	EXPECT_NEAR(area / (4 * kPi), 1.0, 1e-8);
-}
-
 /// Everything else is the same with canonical generators and without, one set for each component.
 TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 {
@@ -243,18 +193,6 @@ TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 		EXPECT_EQ(with.charts[i].group.handles.size(), 4 + 2 * i);
 		EXPECT_EQ(with.charts[i].group.sides.size(), without.charts[i].group.sides.size());
 	}
-}
-
-TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
-{
-	// A fine mesh of equilateral-like triangles is mapped nearly conformally; the disk's own picture
-	// would add the distortion of straight lines to curves, which does not vanish there.
-	Random random(711);
-	const SurfaceMesh coarse = perforatedSlab(2, 2), fine = perforatedSlab(2, 8);
-	const double first = run(coarse, refined()).report.qcAreaMean;
-	const double second = run(fine, refined()).report.qcAreaMean;
-	EXPECT_GT(first, 1.0);
-	EXPECT_LT(second - 1.0, 0.5 * (first - 1.0));
 }
 
 /// The figures of the report are those of the coordinates that are given back, measured on the hyperboloid: flat

@@ -4,7 +4,6 @@
 #include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/intrinsic.h"
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -273,32 +272,6 @@ TEST(Parametrize, TheSeamOfARingIsShortest)
 	EXPECT_NEAR(report.seamLength, 3.0, 1e-12);
 }
 
-TEST(Parametrize, ARectangleHasFourStraightSides)
-{
-	const SurfaceMesh mesh = grid(24, 16, Ends::Open, Ends::Open, [](int i, int j) {
-		const double x = i / 16.0 + 0.02 * std::sin(j), y = j / 16.0;
-		return Point3{x, y, 0.3 * std::exp(-6 * (x - 0.6) * (x - 0.6) - 9 * (y - 0.4) * (y - 0.4))};
-	});
-	const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Rectangle));
-	ASSERT_TRUE(flat.report.rectangleAspect);
-	const double width = std::sqrt(areaOf(mesh) * *flat.report.rectangleAspect);
-	const double height = width / *flat.report.rectangleAspect;
-	int onSides = 0;
-	const FlatMap map(mesh, flat.uv);
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2& p = flat.uv[f][k];
-			if (!map.boundary[at(mesh.triangles[f][k])])
-				continue;
-			++onSides;
-			const double off = std::min(
-				{std::abs(p[0]), std::abs(p[0] - width), std::abs(p[1]), std::abs(p[1] - height)});
-			EXPECT_LT(off, 1e-8);
-		}
-	EXPECT_GT(onSides, 76);
-	EXPECT_EQ(flat.report.flippedFaces, 0);
-}
-
 /// Largest relative deviation of the boundary's points from a circle through three of them.
 double roundness(const SurfaceMesh& mesh, const UV& uv)
 {
@@ -323,23 +296,6 @@ double roundness(const SurfaceMesh& mesh, const UV& uv)
 	for (const Point2& p : points)
 		worst = std::max(worst, std::abs(distance(p, centre) / distance(far[0], centre) - 1.0));
 	return worst;
-}
-
-TEST(Parametrize, ADiskIsRound)
-{
-	Random random(203);
-	for (const SurfaceMesh& mesh :
-		 {bumpyPatch(8),
-		  bumpyPatch(24),
-		  rectangle(30, 6, 5, 1),
-		  withoutStars(perforatedSlab(0, 6), {0})}) {
-		const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Disk));
-		EXPECT_LT(roundness(mesh, flat.uv), 1e-9);
-		EXPECT_EQ(flat.report.flippedFaces, 0);
-		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
-		const FlatMap map(mesh, flat.uv);
-		EXPECT_LT(map.error(flat.targetCurvature), 1e-8);
-	}
 }
 
 /// Faces with two boundary edges at the corners of a square become low, but not flipped: the finish leaves the circle
@@ -375,76 +331,6 @@ TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
 	}
 }
 
-TEST(Parametrize, ClosedSurfacesWithCones)
-{
-	Random random(204);
-	for (int genus : {0, 2, 3}) {
-		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 4), 0.02, random);
-		std::vector<int> cones;
-		for (std::size_t v = 3; v < mesh.positions.size() && cones.size() < 20; v += 17)
-			cones.push_back(static_cast<int>(v));
-		const FlatResult flat =
-			run(mesh, fixedTriangulation(TargetCurvature::SelectedCones), selecting(mesh, cones));
-		const FlatMap map(mesh, flat.uv);
-		EXPECT_EQ(flat.report.genus, genus);
-		EXPECT_LT(map.error(flat.targetCurvature), 1e-9);
-		EXPECT_LT(map.seamMismatch, 1e-9);
-		EXPECT_EQ(map.seamEdges, flat.report.seamEdges + flat.report.overlapCuts);
-		EXPECT_EQ(flat.report.flippedFaces, 0);
-		double sum = 0.0;
-		for (double K : flat.targetCurvature)
-			sum += K;
-		EXPECT_NEAR(sum, 2 * kPi * (2 - 2 * genus), 1e-11);
-		EXPECT_NEAR(map.area / areaOf(mesh), 1.0, 1e-10);
-	}
-}
-
-TEST(Parametrize, PrescribedCurvatureIsReached)
-{
-	Random random(205);
-	const SurfaceMesh mesh = bumpyTorus(14, 9, random);
-	VertexInput input;
-	double sum = 0.0;
-	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-		input.targetCurvature.push_back(random.real(-0.3, 0.3));
-		sum += input.targetCurvature.back();
-	}
-	for (double& K : input.targetCurvature)
-		K -= sum / static_cast<double>(mesh.positions.size());
-	const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Prescribed), input);
-	const FlatMap map(mesh, flat.uv);
-	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-		EXPECT_NEAR(map.curvature[v], input.targetCurvature[v], 1e-9);
-	EXPECT_FALSE(flat.report.torusTauRe); // not flat: no period lattice
-}
-
-TEST(Parametrize, SurfacesWithManyBoundaries)
-{
-	const SurfaceMesh mesh = withoutStars(torus(3, 1, 16, 12), {0, 50, 100});
-	const FlatResult free = run(mesh, fixedTriangulation());
-	EXPECT_EQ(free.report.boundaryLoops, 3);
-	EXPECT_EQ(free.report.genus, 1);
-	EXPECT_EQ(free.report.eulerCharacteristic, -3);
-	const FlatMap freeMap(mesh, free.uv);
-	EXPECT_LT(freeMap.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
-	EXPECT_LT(freeMap.seamMismatch, 1e-9);
-	// The free boundary keeps its lengths.
-	int boundaryEdges = 0;
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k)
-			if (freeMap.boundary[at(mesh.triangles[f][k])] &&
-				freeMap.boundary[at(mesh.triangles[f][(k + 1) % 3])]) { // holes lie apart
-				++boundaryEdges;
-				EXPECT_NEAR(sideLength(free.uv[f], k) / sideLength(mesh, f, k), 1.0, 1e-10);
-			}
-	EXPECT_EQ(boundaryEdges, 3 * 6);
-	Options options = fixedTriangulation();
-	options.freeBoundary = false;
-	const FlatResult prescribed = run(mesh, options);
-	const FlatMap map(mesh, prescribed.uv);
-	EXPECT_LT(map.error(prescribed.targetCurvature), 1e-9);
-}
-
 TEST(Parametrize, ConventionalFlowIsLessConformal)
 {
 	Random random(209);
@@ -470,35 +356,6 @@ TEST(Parametrize, AFreeBoundaryTellsWhatTheFinishDoesToItsLengths)
 	EXPECT_GT(moved.report.boundaryRatioMax.value(), 1.0 + 1e-4);
 	options.target = TargetCurvature::Disk;
 	EXPECT_FALSE(run(bumpyPatch(8), options).report.boundaryRatioMax);
-}
-
-TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
-{
-	// The more negative the curvature asked of the middle, the nearer its vertex comes to the long
-	// side, whose triangle breaks. A boundary edge cannot be swapped: it is split.
-	const SurfaceMesh fan = fanWithGap(100);
-	VertexInput input;
-	input.targetCurvature.assign(8, 0.0);
-	Options options = fixedTriangulation(TargetCurvature::Prescribed);
-	options.method = Method::EdgeSwaps;
-	for (double K : {-1.0, -2.0, -3.0}) {
-		input.targetCurvature[0] = K;
-		const FlatResult flat = run(fan, options, input);
-		EXPECT_EQ(flat.report.boundarySplits, K < -2.5 ? 1 : 0);
-		EXPECT_EQ(flat.report.edgeSwaps, 0);
-		EXPECT_EQ(flat.report.brokenTriangles, 0);
-		EXPECT_EQ(flat.report.flippedFaces, 0);
-		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
-		const FlatMap map(fan, flat.uv);
-		EXPECT_NEAR(map.curvature[0], K, 1e-9);
-		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
-	}
-	options.method = Method::FixedTriangles;
-	const auto error = refusalOf<NotConverged>([&] { run(fan, options, input); });
-	EXPECT_EQ(error.problem, NotConverged::BrokenTriangles);
-	EXPECT_EQ(error.count, 1u);
-	EXPECT_EQ(error.method, Method::FixedTriangles);
-	expectWords(error.what(), {"the triangle inequality at the end"});
 }
 
 /// A corner of one triangle is to become straight: no triangle has an angle of pi, but flat ones come
@@ -527,27 +384,6 @@ TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
 	EXPECT_LT(run(mesh, options, input).report.maxCurvatureError, 1e-8);
 }
 
-TEST(Parametrize, ReportedRadiiBelongToTheLayout)
-{
-	// Scaling the layout to the area of the surface shifts u; edges of the layout must follow it.
-	Random random(213);
-	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
-	const FlatResult flat = run(mesh, fixedTriangulation());
-	const Packed packed(mesh);
-	const Triangulation& t = packed.triangulation;
-	for (const Face f : t.faces())
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Halfedge h = t.halfedges(f)[k];
-			const double gi = std::exp(flat.u[at(t.origin(h))]);
-			const double gj = std::exp(flat.u[at(t.target(h))]);
-			const double I = 1 + packed.packing.delta[h.edge()];
-			EXPECT_NEAR(
-				sideLength(flat.uv[at(f)], k) / std::sqrt(gi * gi + gj * gj + 2 * I * gi * gj),
-				1.0,
-				1e-9);
-		}
-}
-
 /// Ribbons all of whose vertices lie on the boundary: no cone has a place, however many vertices they are.
 TEST(Parametrize, ARibbonWithoutInnerVerticesGetsNoCones)
 {
@@ -570,57 +406,6 @@ TEST(Parametrize, ARibbonWithoutInnerVerticesGetsNoCones)
 				EXPECT_EQ(map.report.cones, 0);
 				expectIsometric(ribbon, map.uv, map.report);
 			}
-}
-
-/// The figures of the report are those of the triangles that are given back: also where a component is so small
-/// that its faces have the size of a few steps of floats, which turn some round.
-TEST(Parametrize, TheReportMeasuresTheOutput)
-{
-	Random random(4207);
-	const SurfaceMesh donut = bumpyTorus(10, 7, random);
-	const SurfaceMesh large = sideBySide(
-		sideBySide(donut, shaken(perforatedSlab(2, 2), 0.02, random), 20), bumpyPatch(6), 40);
-	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-3), 9.0);
-	for (const auto& [mesh, output] :
-		 {std::pair(large, OutputTriangulation::KeepMesh),
-		  std::pair(large, OutputTriangulation::CommonRefinement),
-		  std::pair(uneven, OutputTriangulation::KeepMesh)}) {
-		Options options;
-		options.output = output;
-		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
-		const Distortion found(mesh, map);
-		const Report& r = map.report;
-		EXPECT_NEAR(r.qcMean, found.qcMean, 1e-9);
-		EXPECT_NEAR(r.qcAreaMean, found.qcAreaMean, 1e-9);
-		EXPECT_NEAR(r.qcMax, found.qcMax, 1e-6 * found.qcMax);
-		EXPECT_NEAR(r.areaDistortionMean, found.areaMean, 1e-9);
-		EXPECT_NEAR(r.areaDistortionSpread, found.areaSpread, 1e-9);
-		// Pieces of the refinement that are lower than a texel are left out.
-		const bool hasUnseen = output == OutputTriangulation::CommonRefinement;
-		EXPECT_NEAR(*r.stretch, found.stretch, (hasUnseen ? 1e-6 : 1e-9) * found.stretch);
-		EXPECT_NEAR(*r.objective, *r.stretch + r.seamLengthRelative / 20, 1e-9);
-		std::vector<double> qc(map.vertexQC.size(), 0.0), area = qc;
-		for (const int f : map.mesh.points.indices())
-			for (const int v : map.mesh.vertices[f]) {
-				qc[at(v)] += found.area[at(f)] * found.qc[at(f)];
-				area[at(v)] += found.area[at(f)];
-			}
-		double mean = 0.0;
-		for (std::size_t v = 0; v < qc.size(); ++v) {
-			EXPECT_NEAR(map.vertexQC[v], qc[v] / area[v], 1e-6 * qc[v] / area[v]);
-			mean += qc[v] / area[v] / static_cast<double>(qc.size());
-		}
-		EXPECT_NEAR(r.qcVertexMean, mean, 1e-9);
-		std::vector<double> sorted = found.qc;
-		std::sort(sorted.begin(), sorted.end());
-		const double rank = 0.99 * static_cast<double>(sorted.size());
-		EXPECT_GE(r.qcP99, sorted[static_cast<std::size_t>(rank) - 1] * (1 - 1e-9));
-		EXPECT_LE(r.qcP99, sorted[static_cast<std::size_t>(rank) + 1] * (1 + 1e-9));
-		double covered = 0.0;
-		for (const Triangle2& t : map.mesh.corners())
-			covered += 0.5 * doubledArea(t);
-		EXPECT_NEAR(r.occupancy, covered, 1e-6);
-	}
 }
 
 } // namespace

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -261,31 +260,6 @@ TEST_F(SharedMeshes, FloatsHoldTheDisksOfAPlateOfGenusSeventyNine)
 			const Box2& square = map.charts[at(map.mesh.chart[f])].box;
 			EXPECT_LT(distance(p, square.centre()), 0.5 * square.width());
 		}
-}
-
-TEST_F(SharedMeshes, FlatMetricsNeedEulerCharacteristicZero)
-{
-	int present = 0;
-	const struct
-	{
-		const char* name;
-		int genus;
-	} closed[] = {{"g0_fandisk.ply", 0}, {"g2_eight.ply", 2}};
-	for (const auto& m : closed) {
-		if (!load(m.name))
-			continue;
-		++present;
-		SCOPED_TRACE(m.name);
-		const auto error = refusalOf<InadmissibleCurvature>(
-			[&] { run(m_mesh, fixedTriangulation(TargetCurvature::Flat)); });
-		EXPECT_EQ(error.problem, InadmissibleCurvature::Flat);
-		EXPECT_EQ(error.surface.genus, m.genus);
-		EXPECT_TRUE(error.surface.isClosed());
-		EXPECT_NEAR(error.bound, 4 * kPi * (1 - m.genus), 1e-12);
-		expectWords(error.what(), {"genus " + std::to_string(m.genus)});
-	}
-	if (present == 0)
-		GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes").string() << " is missing";
 }
 
 } // namespace

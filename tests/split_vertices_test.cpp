@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -107,15 +106,6 @@ SurfaceMesh doubleSided(const SurfaceMesh& mesh)
 	return together(mesh, withReversedFaces(mesh, 1));
 }
 
-SurfaceMesh sphere()
-{
-	std::vector<std::array<double, 2>> profile;
-	for (int i = 0; i <= 8; ++i)
-		profile.push_back({std::sin(kPi * i / 8), -std::cos(kPi * i / 8)});
-	profile.front()[0] = profile.back()[0] = 0.0;
-	return revolved(profile, 12);
-}
-
 /// A square of two triangles, and its other side, cut along the other diagonal if \p isCrossed.
 SurfaceMesh leaf(bool isCrossed)
 {
@@ -207,8 +197,8 @@ std::vector<Joining> joinings()
 		for (double& x : negativeZero.positions[v])
 			x = x == 0.0 ? -0.0 : x;
 	return {
-		{"SoupOfASphere", soup(sphere()), 1, 2, 0},
-		{"SoupOfASphereInFloats", inFloats(soup(sphere())), 1, 2, 0},
+		{"SoupOfASphere", soup(sphere(8, 12)), 1, 2, 0},
+		{"SoupOfASphereInFloats", inFloats(soup(sphere(8, 12))), 1, 2, 0},
 		{"BoxOfSquares", cubeOfSquares(), 1, 2, 0},
 		{"SoupOfABox", soup(box), 1, 2, 0},
 		{"ZerosOfBothSigns", negativeZero, 1, 2, 0},
@@ -232,8 +222,8 @@ std::vector<Joining> joinings()
 		{"SquareLeaf", leaf(false), 2, 2, 2},
 		{"SquareLeafAsSoup", soup(leaf(false)), 2, 2, 2},
 		{"CrossedLeaf", leaf(true), 2, 2, 2},
-		{"DoubleSidedSphere", doubleSided(sphere()), 2, 4, 0},
-		{"DoubleSidedSphereAsSoup", soup(doubleSided(sphere())), 2, 4, 0},
+		{"DoubleSidedSphere", doubleSided(sphere(8, 12)), 2, 4, 0},
+		{"DoubleSidedSphereAsSoup", soup(doubleSided(sphere(8, 12))), 2, 4, 0},
 		{"BookOfThreePages", three, 2, 2, 2},
 		{"SheetHalfOfItTurned", turnedOver, 1, 1, 1}};
 }
@@ -338,7 +328,7 @@ TEST(SplitVertices, ArePairedInsideTheBodies)
 /// The corners of the map do not depend on how vertices are shared, nor on what the mesh is mapped to.
 TEST(SplitVertices, GiveTheMapOfTheMeshThatSharesThem)
 {
-	for (const SurfaceMesh& mesh : {sphere(), torus(3, 1, 12, 8), cube()}) {
+	for (const SurfaceMesh& mesh : {sphere(8, 12), torus(3, 1, 12, 8), cube()}) {
 		const SurfaceMesh split = soup(mesh);
 		for (const OutputTriangulation output :
 			 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
@@ -370,7 +360,7 @@ TEST(SplitVertices, GiveTheMapOfTheMeshThatSharesThem)
 
 TEST(SplitVertices, GiveTheSphereOfTheMeshThatSharesThem)
 {
-	const SurfaceMesh mesh = sphere(), split = soup(mesh);
+	const SurfaceMesh mesh = sphere(8, 12), split = soup(mesh);
 	const SphereMap shared = mapToSphere(mesh, {}), map = mapToSphere(split, {});
 	EXPECT_EQ(map.triangles, split.triangles);
 	ASSERT_EQ(map.positions.size(), split.positions.size());

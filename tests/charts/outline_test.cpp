@@ -7,7 +7,6 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/charts/outline.h>
 #include <ricci/charts/outline_packing.h>
 #include <ricci/charts/pack.h>
 

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -326,26 +325,6 @@ TEST(Packing, HalvesMarginsThatLeaveNoRoom)
 		EXPECT_EQ(map.report.margin, margin);
 		EXPECT_GE(leastDistance(map), margin - 1e-7);
 		EXPECT_EQ(map.report.charts, 40);
-	}
-}
-
-TEST(Packing, RefusesMarginsOutOfRangeAndWhatFloatsCannotHold)
-{
-	const SurfaceMesh mesh = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
-	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()})
-		EXPECT_EQ(
-			refusalFor<InvalidOption>(
-				InvalidOption::ChartMargin,
-				{},
-				[&] { parametrizeEuclidean(mesh, {}, packing(margin)); })
-				.bound,
-			kMaxChartMargin);
-	for (const double size : {1e39, 1e-39}) { // in their own scale only
-		const SurfaceMesh box = rectangle(2, 2, size, 0.5 * size);
-		refusalFor<InvalidMesh>(InvalidMesh::BeyondFloats, {}, [&] {
-			parametrizeEuclidean(box, {}, packing(0.0, false));
-		});
-		EXPECT_NEAR(parametrizeEuclidean(box, {}, packing(0.0)).report.occupancy, 0.5, 1e-9);
 	}
 }
 

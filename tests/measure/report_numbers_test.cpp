@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the report says of a map, measured on the map itself by other formulas. parametrize_test.cpp has the values
-// at vertices, parametrize_hyperbolic_test.cpp maps to the disk.
+// What the report says of a map, measured on the map itself by other formulas. parametrize_hyperbolic_test.cpp has maps
+// to the disk.
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -64,6 +64,10 @@ std::vector<Case> cases()
 	seams.mesh.seam.assign(seams.mesh.triangles.size(), {0, 0, 0});
 	for (std::size_t f = 0; f < 18; f += 2)
 		seams.mesh.seam[f][2] = 1; // once round the tube
+	add("refined components", sideBySide(hill, slab, 9.0)).options.output =
+		OutputTriangulation::CommonRefinement;
+	// Its faces have the size of a few steps of floats, which turn some round.
+	add("one much smaller", sideBySide(slab, scaled(slab, 1e-3), 9.0));
 	Case& unscaled = add("unscaled", sideBySide(hill, scaled(hill, 0.1), 5.0));
 	unscaled.options.normalizeUV = false;
 	return all;
@@ -80,6 +84,33 @@ Triangle2 asFloats(Triangle2 t)
 		for (double& x : p)
 			x = static_cast<double>(static_cast<float>(x));
 	return t;
+}
+
+/// The values at vertices, their mean over the vertices of faces, and the percentile of the faces'.
+void expectVertexValues(const Parametrization& map, const Distortion& found)
+{
+	std::vector<double> qc(map.vertexQC.size(), 0.0), area = qc;
+	for (const int f : map.mesh.points.indices())
+		for (const int v : map.mesh.vertices[f])
+			if (std::isfinite(found.qc[at(f)])) {
+				qc[at(v)] += found.area[at(f)] * found.qc[at(f)];
+				area[at(v)] += found.area[at(f)];
+			}
+	double mean = 0.0, count = 0.0;
+	for (std::size_t v = 0; v < qc.size(); ++v)
+		if (area[v] > 0.0) {
+			EXPECT_NEAR(map.vertexQC[v], qc[v] / area[v], 1e-6 * qc[v] / area[v]);
+			mean += qc[v] / area[v];
+			count += 1.0;
+		}
+	if (map.report.chosenSeamEdges == 0) { // else vertices on the seam count once for each side
+		EXPECT_NEAR(map.report.qcVertexMean, mean / count, 1e-9 * mean / count);
+	}
+	std::vector<double> sorted = found.qc;
+	std::sort(sorted.begin(), sorted.end());
+	const auto rank = static_cast<std::size_t>(0.99 * static_cast<double>(sorted.size()));
+	EXPECT_GE(map.report.qcP99, sorted[rank - 1] * (1 - 1e-9));
+	EXPECT_LE(map.report.qcP99, sorted[std::min(rank + 1, sorted.size() - 1)] * (1 + 1e-9));
 }
 
 TEST(ReportNumbers, AreThoseOfTheMap)
@@ -99,6 +130,7 @@ TEST(ReportNumbers, AreThoseOfTheMap)
 		expectNear(r.qcMax, found.qcMax);
 		expectNear(r.areaDistortionMean, found.areaMean);
 		EXPECT_NEAR(r.areaDistortionSpread, found.areaSpread, 1.1e-6);
+		expectVertexValues(map, found);
 		expectNear(*r.stretch, found.stretch);
 		int reversed = 0, byRounding = 0;
 		double covered = 0.0;

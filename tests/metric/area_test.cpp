@@ -105,14 +105,13 @@ TEST(Area, OfADegenerateTriangleIsZero)
 TEST(TriangleApex, LiesOnTheBaseWhereTheSidesMakeNoTriangle)
 {
 	for (const double gap : {0.0, 0.1, 1.0}) {
-		const TriangleApex between = triangleApex(3.0 + gap, 1.0, 2.0);
-		EXPECT_EQ(between.height, 0.0);
+		const auto [x, height] = triangleApex(3.0 + gap, 1.0, 2.0);
+		EXPECT_EQ(height, 0.0);
 		// Where the powers of the points of the base to both circles are equal.
-		const double x = between.along;
 		EXPECT_NEAR(x * x - 1.0, (x - 3.0 - gap) * (x - 3.0 - gap) - 4.0, 1e-14);
-		EXPECT_EQ(triangleApex(1.0, 2.0, 3.0 + gap).height, 0.0);
+		EXPECT_EQ(triangleApex(1.0, 2.0, 3.0 + gap)[1], 0.0);
 	}
-	EXPECT_EQ(triangleApex(3.0, 1.0, 2.0).along, 1.0); // exactly between the ends
+	EXPECT_EQ(triangleApex(3.0, 1.0, 2.0)[0], 1.0); // exactly between the ends
 }
 
 } // namespace

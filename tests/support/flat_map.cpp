@@ -23,7 +23,6 @@ FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 	double extent = 0.0;
 	for (std::size_t f = 0; f < uv.size(); ++f) {
 		const Triangle2& p = uv[f];
-		area += 0.5 * doubledArea(p);
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
 			sides[{mesh.triangles[f][k], mesh.triangles[f][next]}] = {p[k], p[next]};
@@ -56,14 +55,6 @@ double FlatMap::insideError(const std::vector<double>& target) const
 	for (std::size_t v = 0; v < curvature.size(); ++v)
 		if (!boundary[v])
 			largest = std::max(largest, std::abs(curvature[v] - target[v]));
-	return largest;
-}
-
-double FlatMap::error(const std::vector<double>& target) const
-{
-	double largest = 0.0;
-	for (std::size_t v = 0; v < curvature.size(); ++v)
-		largest = std::max(largest, std::abs(curvature[v] - target[v]));
 	return largest;
 }
 

@@ -113,6 +113,15 @@ SurfaceMesh revolved(const std::vector<std::array<double, 2>>& profile, int arou
 	return mesh;
 }
 
+SurfaceMesh sphere(int rings, int around)
+{
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= rings; ++i)
+		profile.push_back({std::sin(kPi * i / rings), -std::cos(kPi * i / rings)});
+	profile.front()[0] = profile.back()[0] = 0.0;
+	return revolved(profile, around);
+}
+
 SurfaceMesh sphereWithTube(double radius, double length, double hole, int rings, int around)
 {
 	std::vector<std::array<double, 2>> profile;

@@ -58,6 +58,9 @@ SurfaceMesh ring(double r1, double r2, int around, int across);
 /// surface there, else it has a hole
 SurfaceMesh revolved(const std::vector<std::array<double, 2>>& profile, int around);
 
+/// Unit sphere with poles and, between them, \p rings - 1 rings of \p around vertices.
+SurfaceMesh sphere(int rings, int around);
+
 /// Unit sphere with \p rings vertices from pole to pole and \p around in each ring, whose north is a
 /// tube of this \p radius and \p length with a round end. Its south has a hole at polar angle
 /// \p hole, none if that is 0. Triangles are about as large everywhere as on the sphere, but the tube

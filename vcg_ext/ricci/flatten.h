@@ -27,7 +27,7 @@ struct FlowPlan
 FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options);
 
 /// Chooses the target.
-/// \param alternative see ConeRequest
+/// \param alternative see TargetRequest
 /// \throw as chooseTarget()
 void completePlan(const Options& options, double alternative, FlowPlan& plan);
 

@@ -9,7 +9,6 @@
 #include "flatten_steps.h"
 #include "hyperbolic/group_of_cut.h"
 #include "hyperbolic/hyperbolic_target.h"
-#include "layout/hyperbolic_layout.h"
 #include "measure/map_check.h"
 #include "mesh/flow_domain.h"
 

@@ -90,8 +90,8 @@ flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& 
 	return std::move(swapped.flow);
 }
 
-/// The promise of Target::maxSpread, or of Target::expected: while a metric changes areas, or costs, more than its
-/// target was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds.
+/// The promise of Target::expected: while a metric changes areas, or costs, more than its target was chosen for, runs
+/// the flow again, to targetToKeepAreas(), in a bounded number of rounds.
 /// \param best the first one
 /// \return the metric that keeps areas best
 /// \throw Stopped
@@ -105,7 +105,7 @@ FlowResult keepAreas(
 	std::unique_ptr<const FlowResult> last; // where it is not the best
 	const auto propose = [&]() -> std::optional<FlowResult> {
 		const FlowResult& before = last ? *last : best;
-		if (keepsAreas(surface, before))
+		if (keepsAreas(surface, before, request))
 			return std::nullopt; // without the cost of another start
 		auto next = attempt("the metric before it stays", [&]() -> std::optional<FlowResult> {
 			InitialPacking start = initialPacking(surface, options);
@@ -117,7 +117,7 @@ FlowResult keepAreas(
 		return next ? std::move(*next) : std::nullopt;
 	};
 	const auto take = [&](FlowResult next) {
-		const bool isBest = areaCost(surface, next) <= areaCost(surface, best);
+		const bool isBest = areaCost(surface, next, request) <= areaCost(surface, best, request);
 		last.reset();
 		if (isBest)
 			best = std::move(next);
@@ -125,7 +125,7 @@ FlowResult keepAreas(
 			last = std::make_unique<const FlowResult>(std::move(next));
 		return isBest;
 	};
-	const bool isForCost = best.target.expected.has_value();
+	const bool isForCost = request.goal() == ConeGoal::LeastCost;
 	const int round = improve(
 		isForCost ? kMaxCheaper : kMaxRounds,
 		isForCost ? kMaxVainCheaper : kMaxVainRounds,
@@ -300,11 +300,6 @@ void measureBoundary(const FlatMesh& map, Report& report)
 			numberText(most, 3) + " times as long as on the mesh.");
 }
 
-int threadsOf(const Component& component)
-{
-	return threadsFor(static_cast<std::int64_t>(component.triangles.size()));
-}
-
 } // namespace
 
 FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options)
@@ -330,7 +325,7 @@ void completePlan(const Options& options, double alternative, FlowPlan& plan)
 
 Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options)
 {
-	const int threads = threadsOf(component);
+	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
 	const FlowDomain& domain = plan.domain;
 	FlowLog log;
 	FlowResult flow;

@@ -33,32 +33,6 @@ enum class TargetUsed {
 	GivenMap            ///< the map that the mesh had is kept, see SurfaceMesh::map
 };
 
-/// The surface, as it was opened for the flow.
-struct SurfaceReport
-{
-	int components = 0;
-	/// Hyperbolic flow: components without a hyperbolic metric, which lie beside the disks, in the plane's metric.
-	/// Areas and distortion are those of the others.
-	int leftOutComponents = 0;
-	int eulerCharacteristic = 0;
-	int genus = 0;
-	int boundaryLoops = 0;
-	int cappedHoles = 0; ///< boundary loops closed for the flow
-
-	int joinedEdges =
-		0; ///< edges whose faces have vertices of their own there, see JoinSplitVertices
-	int piecesApart = 0; ///< pieces of the surface that could be joined to others so, and are not
-
-	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
-	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge
-	int duplicateFaces = 0;      ///< faces with the vertices of another: sheets of their own
-	int oneSidedComponents = 0;  ///< components cut along short one-sided loops
-	int degenerateFaces = 0;     ///< faces without area that are drawn as lines or points
-
-	int chosenSeamEdges = 0;       ///< edges opened before the flow, as SurfaceMesh::seam asks for
-	double chosenSeamLength = 0.0; ///< of these, each once
-};
-
 /// The flow.
 struct FlowReport
 {
@@ -136,9 +110,36 @@ struct DistortionReport
 	std::vector<double> areaFactors;   ///< binary logarithms of s of the faces
 };
 
-/// The charts and their seams.
-struct ChartReport
+/// What a run measured. With several components counts are sums, errors maxima, means run over all
+/// faces, and the conformal invariants are left empty.
+struct Report : FlowReport, InvariantReport, DistortionReport
 {
+	bool converged = false;
+
+	// The surface, as it was opened for the flow:
+	int components = 0;
+	/// Hyperbolic flow: components without a hyperbolic metric, which lie beside the disks, in the plane's metric.
+	/// Areas and distortion are those of the others.
+	int leftOutComponents = 0;
+	int eulerCharacteristic = 0;
+	int genus = 0;
+	int boundaryLoops = 0;
+	int cappedHoles = 0; ///< boundary loops closed for the flow
+
+	int joinedEdges =
+		0; ///< edges whose faces have vertices of their own there, see JoinSplitVertices
+	int piecesApart = 0; ///< pieces of the surface that could be joined to others so, and are not
+
+	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
+	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge
+	int duplicateFaces = 0;      ///< faces with the vertices of another: sheets of their own
+	int oneSidedComponents = 0;  ///< components cut along short one-sided loops
+	int degenerateFaces = 0;     ///< faces without area that are drawn as lines or points
+
+	int chosenSeamEdges = 0;       ///< edges opened before the flow, as SurfaceMesh::seam asks for
+	double chosenSeamLength = 0.0; ///< of these, each once
+
+	// The charts and their seams:
 	int charts = 0;
 	int seamEdges = 0;       ///< edges of the input along which the layout is cut, except for those
 							 ///< that SurfaceMesh::seam asks for
@@ -152,13 +153,6 @@ struct ChartReport
 	double occupancy = 0.0;
 	/// Options::chartMargin as it came out.
 	double margin = 0.0;
-};
-
-/// What a run measured. With several components counts are sums, errors maxima, means run over all
-/// faces, and the conformal invariants are left empty.
-struct Report : SurfaceReport, FlowReport, InvariantReport, DistortionReport, ChartReport
-{
-	bool converged = false;
 
 	/// Of a map to the plane: its symmetric Dirichlet energy at the best scale, stretchEnergy(); and with the
 	/// price of all seams, MapCost::total().

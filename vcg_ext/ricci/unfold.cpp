@@ -13,7 +13,6 @@
 #include "whole_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>

@@ -4,7 +4,6 @@
 #ifndef RICCI_WHOLE_MAP_H
 #define RICCI_WHOLE_MAP_H
 
-#include "charts/outline_packing.h"
 #include "error.h"
 #include "layout/parametrization.h"
 #include "mesh/component.h"
@@ -47,10 +46,10 @@ std::size_t faceCount(const std::vector<Component>& components);
 /// Gives an error the data of the component that it is of, where there are several.
 void nameComponent(const OpenedMesh& opened, const Component& component, Error& error);
 
-/// Appends what \p flatten makes of each component, several of them at the same time in threads. A component whose sides
-/// are as long as those of an earlier one, triangle by triangle and but for rounding, and that is a copy of it by a rigid
-/// motion where there are positions, gets the map of that one: it looks the same, and costs nothing. The log has their lines in the order of the components. Of several errors
-/// that of the first component is thrown; where there are several components, it gets the component's data.
+/// Appends what \p flatten makes of each component, several of them at the same time in threads. A copy of an earlier
+/// one (originals()) gets the map of that one: it looks the same, and costs nothing. The log has their lines in the order
+/// of the components. Of several errors that of the first component is thrown; where there are several components, it
+/// gets the component's data.
 /// \param values of the vertices of \p opened: those of copies are equal
 void appendComponents(
 	const OpenedMesh& opened,

@@ -76,12 +76,9 @@ constexpr double kMinDifference = 1e-6;
 /// that are mended get so many times this height where they can.
 constexpr double kMinHeight = 0x1p-21, kMinFloatSteps = 4.0, kWantedHeights = 2.0;
 
-/// Formats of text give coordinates in the unit square with six decimals.
-constexpr double kTextStep = 1e-6;
-
-/// Texture coordinates of two faces that differ no more, as a share of the extent of all or in one picture of side 1,
-/// are equal.
-constexpr double kSameCoordinate = 1e-6;
+/// Formats of text give coordinates in the unit square with six decimals. So texture coordinates of two faces that
+/// differ no more, as a share of the extent of all or in one picture of side 1, are equal.
+constexpr double kTextStep = 1e-6, kSameCoordinate = kTextStep;
 
 /// A triangle whose height is a smaller share of a side is too thin to have a normal: its corners are rounded in files
 /// to about 1e-6 of their size.
@@ -114,9 +111,9 @@ constexpr double kMinPadding = 2e-5;
 constexpr double kWorthTurning = 0.01;
 
 /// Rounding that the checks of a result allow for: in a coordinate of the disk; in a determinant of
-/// three points of the sphere; in a length, in units of roundoff.
-constexpr double kDiskRounding = 8 * kUnitRoundoff, kSphereRounding = 16 * kUnitRoundoff;
-constexpr double kLengthRounding = 16.0;
+/// three points of the sphere; in a length, relatively.
+constexpr double kDiskRounding = 8 * kUnitRoundoff, kSphereRounding = 16 * kUnitRoundoff,
+				 kLengthRounding = 16 * kUnitRoundoff;
 
 // ---- Heuristic: other values would work as well, these were measured to do ----------------------
 
@@ -152,11 +149,9 @@ constexpr double kRegularisation = 1e-6;
 constexpr double kMinNewtonStep = 1e-10;
 
 /// Canonical generators that move 0 farther than this (hyperbolic distance) are not given: their
-/// numbers of about 1e8 no longer hold |a|^2 - |b|^2 = 1 in double precision.
-constexpr double kMaxGeneratorDistance = 38.0;
-
-/// The same for extended precision, in which they are found: handle moves make them shorter.
-constexpr double kMaxSearchedDistance = 72.0;
+/// numbers of about 1e8 no longer hold |a|^2 - |b|^2 = 1 in double precision. The second is the same for extended
+/// precision, in which they are found: handle moves make them shorter.
+constexpr double kMaxGeneratorDistance = 38.0, kMaxSearchedDistance = 72.0;
 
 /// Copies of a fundamental domain further from 0 than this are smaller than a float can show; two
 /// whose images of 0 are nearer to each other are the same (hyperbolic distances).

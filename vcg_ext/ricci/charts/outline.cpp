@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "outline.h"
+#include "outline_packing.h"
 
 #include "../base/box_tree.h"
 #include "../base/numbers.h"

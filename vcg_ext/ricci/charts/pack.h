@@ -41,13 +41,10 @@ void packCharts(
 	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
-/// little is left to win.
-constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
-
-/// Cuts at most, and prices of cuts in a row that bring nothing, together, which further cuts do not make up: a
-/// twelfth.
+/// little is left to win. Cuts in a row that bring nothing and whose prices together are kMaxLoss, a twelfth, are not
+/// made up for by further ones, of which there are kMaxCuts at most.
+constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75, kMaxLoss = 0.08;
 constexpr int kMaxCuts = 24;
-constexpr double kMaxLoss = 0.08;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.

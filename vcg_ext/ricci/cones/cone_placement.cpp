@@ -41,31 +41,28 @@ constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 constexpr int kMaxFitSteps = 20;
 constexpr double kNoGain = 1e-6;
 
-void checkCount(const ConeRequest& request, int least, const ConeSites& sites)
+void checkCount(const TargetRequest& request, int least, const ConeSites& sites)
 {
-	if (goalOf(request) == ConeGoal::Count && request.count < least)
-		throw InvalidOption(InvalidOption::TooFewCones, request.count, least);
-	const int wanted = std::max(request.count, least);
+	const int count = request.options.cones.count, wanted = std::max(count, least);
+	if (request.goal() == ConeGoal::Count && count < least)
+		throw InvalidOption(InvalidOption::TooFewCones, count, least);
 	if (wanted > sites.count())
 		throw InvalidOption(
-			InvalidOption::TooFewVertices,
-			request.count,
-			wanted,
-			static_cast<std::size_t>(sites.count()));
+			InvalidOption::TooFewVertices, count, wanted, static_cast<std::size_t>(sites.count()));
 }
 
 /// Adds cones up to the number that is asked for.
-void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void placeCount(const ConeOptions& wanted, ConeModel& model, const ConeSites& sites)
 {
-	while (model.size() < request.count &&
-		   addCones(model, sites, std::min(request.count - model.size(), 1 + model.size() / 8))) {
+	while (model.size() < wanted.count &&
+		   addCones(model, sites, std::min(wanted.count - model.size(), 1 + model.size() / 8))) {
 	}
 	relocateCones(model, sites);
-	model.setRounding(request.rounding);
+	model.setRounding(wanted.rounding);
 }
 
 /// How many cones \p model can work with.
-int maxCones(const ConeModel& model, const ConeRequest& request)
+int maxCones(const ConeModel& model, const TargetRequest& request)
 {
 	// There are none if all lie on a boundary that is free.
 	const auto vertices = static_cast<int>(model.area().size());
@@ -81,7 +78,7 @@ constexpr int kFirstRelocated = 16, kMaxObjectiveRounds = 3;
 class Growth
 {
 public:
-	Growth(const ConeRequest& request, ConeModel& model, const ConeSites& sites) :
+	Growth(const TargetRequest& request, ConeModel& model, const ConeSites& sites) :
 			m_model(model), m_sites(sites), m_tree(sites, model.vertices()),
 			m_most(maxCones(model, request)), m_best(model.size()), m_least(objective())
 	{
@@ -140,7 +137,7 @@ private:
 
 /// As many cones as lower the energy and the price of the seams together: more than those at first, then
 /// without those that are not worth their seams.
-void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void placeForObjective(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	Growth growth(request, model, sites);
 	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
@@ -161,44 +158,47 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
 /// ones have to reach it.
-void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void addForDistortion(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	model.setRounding(request.rounding);
+	const ConeOptions& wanted = request.options.cones;
+	model.setRounding(wanted.rounding);
 	Growth growth(request, model, sites);
-	while (model.distortion() > request.distortion &&
+	while (model.distortion() > wanted.distortion &&
 		   (model.size() < kMaxPlacedCones || growth.mayGoOn())) {
 		model.setRounding(ConeRounding::Free);
 		if (!growth.add())
 			break;
-		if (model.distortion() <= kSpreadSlack * request.distortion)
+		if (model.distortion() <= kSpreadSlack * wanted.distortion)
 			relocateCones(model, sites);
-		model.setRounding(request.rounding);
+		model.setRounding(wanted.rounding);
 	}
 }
 
 /// The same, with no more cones than it takes.
-void placeForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void placeForDistortion(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	addForDistortion(request, model, sites);
-	if (model.distortion() <= request.distortion && model.size() <= kMaxPlacedCones)
-		dropCones(model, sites, request.distortion);
+	const double distortion = request.options.cones.distortion;
+	if (model.distortion() <= distortion && model.size() <= kMaxPlacedCones)
+		dropCones(model, sites, distortion);
 }
 
 /// Adds cones until areas are expected to be kept as is asked for.
 void addForAreas(
 	const EmbeddedSurface& surface,
-	const ConeRequest& request,
+	const TargetRequest& request,
 	ConeModel& model,
 	const ConeSites& sites)
 {
+	const ConeOptions& wanted = request.options.cones;
 	const int limit = std::min(model.size() + kMaxPlacedCones, maxCones(model, request));
-	model.setRounding(request.rounding);
+	model.setRounding(wanted.rounding);
 	while (model.size() < limit &&
-		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {
+		   areaExcess(areaChange(surface, model.factor()), wanted.distortion) > 1.0) {
 		model.setRounding(ConeRounding::Free);
 		if (!addCones(model, sites))
 			break;
-		model.setRounding(request.rounding);
+		model.setRounding(wanted.rounding);
 	}
 }
 
@@ -220,18 +220,19 @@ void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeMo
 }
 
 /// All of the search, from the cones that \p model has.
-void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void search(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	startCones(model, sites);
-	const ConeGoal goal = goalOf(request);
+	const ConeOptions& wanted = request.options.cones;
+	const ConeGoal goal = request.goal();
 	if (goal == ConeGoal::Count)
-		placeCount(request, model, sites);
+		placeCount(wanted, model, sites);
 	else if (goal == ConeGoal::LeastCost)
 		placeForObjective(request, model, sites);
 	else
 		placeForDistortion(request, model, sites);
-	if (request.rounding != ConeRounding::Free) {
-		model.setRounding(request.rounding); // also where no vertex was left for one more cone
+	if (wanted.rounding != ConeRounding::Free) {
+		model.setRounding(wanted.rounding); // also where no vertex was left for one more cone
 		relocateCones(model, sites);
 	}
 	removeWeakCones(model);
@@ -241,7 +242,7 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 			model,
 			tree,
 			sites,
-			goal == ConeGoal::Count ? kSeamAllowance * model.distortion() : request.distortion);
+			goal == ConeGoal::Count ? kSeamAllowance * model.distortion() : wanted.distortion);
 		removeWeakCones(model);
 	}
 }
@@ -284,7 +285,7 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 /// factorises the flow. On the surface itself the curvatures are fitted by conjugate gradients, with the equation
 /// on the aggregates as the preconditioner: each step costs two linear solutions, however many cones there are.
 PlacedCones
-placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
+placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request)
 {
 	const double total = surface.topology.type.totalCurvature();
 	VertexArray<Vertex> roots;
@@ -295,7 +296,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 	besides(
 		defaultThreads(),
 		[&] {
-			sites.emplace(surface, request.vertices);
+			sites.emplace(surface, request.coneVertices());
 			checkCount(request, minConeCount(flow, total), *sites);
 			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
 			found.emplace(*coarse, total);
@@ -322,7 +323,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 	VertexVector u;
 	const auto fit = [&] {
 		u = flow.factor(spread(k));
-		if (request.rounding != ConeRounding::Free || model.size() == 0)
+		if (request.options.cones.rounding != ConeRounding::Free || model.size() == 0)
 			return;
 		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
 		double gain = rest.dot(step);
@@ -351,23 +352,23 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 /// The same for a number of cones or a distortion, and then on the surface itself as far as its own
 /// distortion asks for it.
 void searchFromCoarse(
-	const ConeRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
+	const TargetRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
 	VertexArray<Vertex> roots;
 	LinearFlow coarse = onAggregates(flow.system(roots), kMaxAggregates, roots);
 	const ConeSites coarseSites(sites, roots);
 	ConeModel coarseModel(coarse, model.total());
-	ConeRequest coarseRequest = request;
-	const bool isCounted = goalOf(request) == ConeGoal::Count;
-	model.setRounding(request.rounding);
+	TargetRequest coarseRequest = request;
+	const bool isCounted = request.goal() == ConeGoal::Count;
+	model.setRounding(request.options.cones.rounding);
 	double excess = 0.0; // of the distortion on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
 		copyCones(coarseModel, roots, model);
-		excess = model.distortion() / request.distortion;
+		excess = model.distortion() / request.options.cones.distortion;
 		if (isCounted || excess <= 1.0)
 			break;
-		coarseRequest.distortion /= excess;
+		coarseRequest.options.cones.distortion /= excess;
 	}
 	if (isCounted || excess > 1.0)
 		relocateCones(model, sites, kMaxFineRounds);
@@ -379,19 +380,20 @@ void searchFromCoarse(
 } // namespace
 
 PlacedCones
-placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequest& request)
+placeCones(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request)
 {
-	LinearFlow flow(surface, start, request.boundary);
+	LinearFlow flow(surface, start, request.boundary());
 	return placeCones(surface, flow, request);
 }
 
-PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
+PlacedCones
+placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request)
 {
 	advance(0.0, "Placing cones");
 	const bool isLarge = surface.triangulation.vertexCount() > kMaxSearched;
-	if (isLarge && goalOf(request) == ConeGoal::LeastCost)
+	if (isLarge && request.goal() == ConeGoal::LeastCost)
 		return placeOnAggregates(surface, flow, request);
-	const ConeSites sites(surface, request.vertices);
+	const ConeSites sites(surface, request.coneVertices());
 	ConeModel model(flow, surface.topology.type.totalCurvature());
 	checkCount(request, model.minSize(), sites);
 	if (!isLarge)
@@ -402,12 +404,12 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 }
 
 PlacedCones
-moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request)
+moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
 	advance(0.0, "Placing cones");
-	const ConeSites sites(surface, request.vertices);
-	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
-	if (goalOf(request) == ConeGoal::LeastCost) {
+	const ConeSites sites(surface, request.coneVertices());
+	LinearFlow linear(surface, flow, request.boundary(), tailWeights(surface, flowFactor(flow)));
+	if (request.goal() == ConeGoal::LeastCost) {
 		PlacedCones placed = placeCones(surface, linear, request);
 		const auto k = Eigen::Map<const Eigen::VectorXd>(
 			placed.curvatures.data(), static_cast<Eigen::Index>(placed.curvatures.size()));

@@ -6,18 +6,32 @@
 #include "../flow/target.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
+#include "prescribed_target.h"
 
 #include <vector>
 
 namespace ricci {
 
-/// Which cones placeCones() looks for, and where.
-struct ConeRequest : ConeOptions
+/// What chooseTarget() is asked for, and which cones placeCones() looks for, and where.
+struct TargetRequest : TargetInput
 {
-	ConeBoundary boundary = ConeBoundary::Fixed;
-	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
+	TargetOptions options;
+	bool measuresAreas = true; ///< false: Automatic decides by topology alone
+	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
 	double alternative = kInfinity;
+
+	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
+	/// and cones at any.
+	VertexArray<int> vertexNumbers = {};
+
+	ConeGoal goal() const { return goalOf(options.cones); }
+	ConeBoundary boundary() const
+	{
+		return options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
+	}
+	/// Cones lie at vertices with a number below this; -1: at any.
+	int coneVertices() const { return vertexNumbers.empty() ? -1 : vertexNumbers.size(); }
 };
 
 /// Cones that placeCones() has found.
@@ -64,12 +78,12 @@ struct PlacedCones
 /// larger than its number of interior vertices
 /// \throw SolverFailed
 PlacedCones
-placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequest& request);
+placeCones(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 
 /// The same with the linear problem at hand.
 /// \param flow at the start on \p surface, with the boundary of \p request
 PlacedCones
-placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request);
+placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request);
 
 /// Fits again the curvatures of the cones that \p flow has reached, and adds cones, until areas are
 /// expected to change as \p request allows (areaExcess() at its distortion), or kMaxPlacedCones were
@@ -81,7 +95,7 @@ placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& 
 /// \return cones with the spread of all areas that is to be expected
 /// \throw SolverFailed
 PlacedCones
-moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request);
+moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
 
 } // namespace ricci
 

@@ -38,7 +38,7 @@ constexpr double kMinCurvature = 0.02;
 constexpr double kMaxStep = 0.25, kMaxStepOfMany = 2.0; // this over the root of their number
 
 /// A move must lower energy and price of seams together by this.
-constexpr double kMinObjectiveGain = 1e-4;
+constexpr double kMinObjectiveGain = 0.1 * kConePrice;
 
 /// The free vertex with the lowest \p value(v), the first of equals; invalid if there is none. \p
 /// freed counts as free though it is a cone.

@@ -75,12 +75,12 @@ public:
 		const EmbeddedSurface& surface,
 		const FlowResult& flow,
 		const Holonomy& holonomy,
-		const ConeRequest& request,
+		const TargetRequest& request,
 		double radius) :
 			m_surface(surface),
-			m_holonomy(holonomy), m_sites(surface, request.vertices),
-			m_keepsCount(goalOf(request) == ConeGoal::Count),
-			m_linear(surface, flow, request.boundary, areaShares(surface)),
+			m_holonomy(holonomy), m_sites(surface, request.coneVertices()),
+			m_keepsCount(request.goal() == ConeGoal::Count),
+			m_linear(surface, flow, request.boundary(), areaShares(surface)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature),
 			m_errors(holonomy.errors), m_root(holonomy.cost.llt().matrixU()),
 			m_area(euclideanArea(surface.triangulation, surface.lengths))
@@ -326,7 +326,7 @@ std::optional<PlacedCones> seamlessCones(
 	const EmbeddedSurface& surface,
 	const FlowResult& flow,
 	const Holonomy& holonomy,
-	const ConeRequest& request,
+	const TargetRequest& request,
 	double radius)
 {
 	if (holonomy.errors.size() == 0)
@@ -357,7 +357,7 @@ int makeSeamless(
 		if (lowest.angles <= kCheap)
 			return std::nullopt;
 		const auto target = attempt("the cones stay", [&]() -> std::optional<Target> {
-			const auto cones = seamlessCones(surface, flow, present, coneRequest(request), radius);
+			const auto cones = seamlessCones(surface, flow, present, request, radius);
 			return cones ? std::optional(targetWithCones(surface, *cones, request)) : std::nullopt;
 		});
 		std::optional<FlowResult> next = target && *target ? flowTo(**target) : std::nullopt;

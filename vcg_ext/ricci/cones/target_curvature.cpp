@@ -19,9 +19,8 @@ namespace ricci {
 
 namespace {
 
-/// By so much less, energy and price of seams are not worth a search for cones; and by so much less, not
-/// another flow.
-constexpr double kNegligible = 1e-3, kWorthAFlow = 0.03;
+/// By so much less, energy and price of seams are not worth another flow.
+constexpr double kWorthAFlow = 0.03;
 
 std::string number(double x)
 {
@@ -223,11 +222,8 @@ void setPlacedCones(
 	target.expectedSpread = cones.distortion;
 	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	const ConeGoal goal = goalOf(request.options.cones);
-	if (request.measuresAreas && goal == ConeGoal::LeastCost)
+	if (request.measuresAreas && request.goal() != ConeGoal::Count)
 		target.expected = expectation(cones);
-	else if (request.measuresAreas && goal == ConeGoal::Spread)
-		target.maxSpread = request.options.cones.distortion;
 	if (surface.topology.type.isClosed())
 		return;
 	if (request.options.freeBoundary)
@@ -277,15 +273,13 @@ void choosePlainOrCones(
 	const bool isFlat = isFlatAnnulus(surface, request);
 	LinearFlow flow(surface, start, isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed);
 	// The search first: flow is factorised meanwhile.
-	std::optional<PlacedCones> cones = isFlat ? placeCones(surface, start, coneRequest(request))
-											  : placeCones(surface, flow, coneRequest(request));
+	std::optional<PlacedCones> cones =
+		isFlat ? placeCones(surface, start, request) : placeCones(surface, flow, request);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
-	const ConeOptions& wanted = request.options.cones;
-	const ConeGoal goal = goalOf(wanted);
-	const bool goesBySpread = goal == ConeGoal::Spread;
+	const bool goesBySpread = request.goal() == ConeGoal::Spread;
 	MapCost plain{expectedEnergy(spread), cones->seamsWithout};
-	const bool isKept = goesBySpread ? spread <= wanted.distortion
-									 : plain.energy - expectedEnergy(0.0) < kNegligible;
+	const bool isKept = goesBySpread ? spread <= request.options.cones.distortion
+									 : plain.energy - expectedEnergy(0.0) < kConePrice;
 	if (isKept)
 		cones.reset();
 	const std::string without =
@@ -325,10 +319,8 @@ void choosePlainOrCones(
 					 describe(expectation(*cones))
 			   : "") +
 		".");
-	if (goal == ConeGoal::LeastCost)
+	if (request.goal() != ConeGoal::Count)
 		target.expected = plain;
-	else if (goesBySpread)
-		target.maxSpread = wanted.distortion;
 }
 
 void setAutomatic(
@@ -341,7 +333,7 @@ void setAutomatic(
 	if (type.isClosed() && !type.isTorus()) {
 		target.choice = "cones, because " + type.name() + " has no flat metric without them";
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
-		setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
+		setPlacedCones(surface, placeCones(surface, start, request), request, target);
 	}
 	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
@@ -383,7 +375,7 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 		setPrescribedValues(surface, start, request, target);
 		break;
 	case TargetCurvature::PlacedCones:
-		setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
+		setPlacedCones(surface, placeCones(surface, start, request), request, target);
 		break;
 	}
 	const bool isImplied = target.used == TargetUsed::Flat || target.used == TargetUsed::Disk ||
@@ -395,19 +387,22 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 	return target;
 }
 
-bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
+bool keepsAreas(
+	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
-	const Target& target = flow.target;
-	if (target.expected)
-		return areaCost(surface, flow) <= target.expected->total() + kWorthAFlow;
-	return !target.maxSpread || areaCost(surface, flow) <= 1.0;
+	const std::optional<MapCost>& expected = flow.target.expected;
+	const bool goesBySpread = request.goal() == ConeGoal::Spread;
+	return !expected || areaCost(surface, flow, request) <=
+							(goesBySpread ? 1.0 : expected->total() + kWorthAFlow);
 }
 
-double areaCost(const EmbeddedSurface& surface, const FlowResult& flow)
+double
+areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	return flow.target.expected ? MapCost{change.energy, flow.target.expected->seams}.total()
-								: areaExcess(change, *flow.target.maxSpread, kSpreadSlack);
+	return request.goal() == ConeGoal::Spread
+			   ? areaExcess(change, request.options.cones.distortion, kSpreadSlack)
+			   : MapCost{change.energy, flow.target.expected->seams}.total();
 }
 
 std::optional<Target> targetToKeepAreas(
@@ -418,9 +413,10 @@ std::optional<Target> targetToKeepAreas(
 {
 	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
 	const PlacedCones cones = wasFlat && request.options.freeBoundary
-								  ? placeCones(surface, start, coneRequest(request))
-								  : moreCones(surface, flow, coneRequest(request));
-	if (flow.target.expected && expectation(cones).total() > areaCost(surface, flow) - kWorthAFlow)
+								  ? placeCones(surface, start, request)
+								  : moreCones(surface, flow, request);
+	if (request.goal() == ConeGoal::LeastCost &&
+		expectation(cones).total() > areaCost(surface, flow, request) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = targetWithCones(surface, cones, request);
@@ -432,16 +428,6 @@ std::optional<Target> targetToKeepAreas(
 			numberText(change.mean, 3) + ", the energy as " + numberText(change.energy, 3) +
 			": more or other cones are needed.");
 	return target;
-}
-
-ConeRequest coneRequest(const TargetRequest& request)
-{
-	ConeRequest wanted{request.options.cones};
-	wanted.alternative = request.alternative;
-	if (!request.vertexNumbers.empty())
-		wanted.vertices = request.vertexNumbers.size();
-	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
-	return wanted;
 }
 
 Target targetWithCones(

@@ -4,27 +4,12 @@
 #ifndef RICCI_TARGET_CURVATURE_H
 #define RICCI_TARGET_CURVATURE_H
 
-#include "../base/numbers.h"
 #include "../flow/ricci_flow.h"
 #include "cone_placement.h"
-#include "prescribed_target.h"
 
 #include <optional>
 
 namespace ricci {
-
-/// What chooseTarget() is asked for.
-struct TargetRequest : TargetInput
-{
-	TargetOptions options;
-	bool measuresAreas = true;      ///< false: Automatic decides by topology alone
-	bool hasSeam = false;           ///< see OpenedMesh: Automatic makes no flat annulus of it
-	double alternative = kInfinity; ///< see ConeRequest
-
-	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
-	/// and cones at any.
-	VertexArray<int> vertexNumbers = {};
-};
 
 /// Chooses the target of the Euclidean flow (paper 5.2, 5.3) and checks that a metric with that
 /// curvature can exist: K < 2 pi inside and K < pi on the boundary; and sum K = 2 pi chi
@@ -39,30 +24,29 @@ struct TargetRequest : TargetInput
 Target
 chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 
-/// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
-/// expected then; or its target was chosen by neither.
+/// Whether \p flow changes areas no more than is asked for, or costs little more than its target was expected to;
+/// or its target was chosen by neither (Target::expected).
 /// \param flow with intrinsic flips
-bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
+bool keepsAreas(
+	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
 
-/// What \p flow has in excess of one that its target was chosen for: areaExcess(), or what its map costs
-/// (MapCost).
-/// \pre the target was chosen by one of them
-double areaCost(const EmbeddedSurface& surface, const FlowResult& flow);
+/// What \p flow has in excess of one that keeps areas: areaExcess() where a spread is asked for, else what its map
+/// costs (MapCost).
+/// \pre the target has an expected cost
+double
+areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
 
 /// The next target after \p flow: cones as moreCones() finds them; none where the target was chosen to
 /// cost least and no other is expected to cost less by what another flow is worth.
 /// \param start of another flow on \p surface, as for chooseTarget()
 /// \param flow with intrinsic flips
-/// \pre !keepsAreas(\p surface, \p flow)
+/// \pre !keepsAreas(\p surface, \p flow, \p request)
 /// \throw as chooseTarget()
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request);
-
-/// What placeCones() is asked for.
-ConeRequest coneRequest(const TargetRequest& request);
 
 /// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
 /// curvature in proportion to its length.

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
+#include "../numerics/iteration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +25,6 @@ constexpr double kShareOfRange = 0.9;
 /// are shortened: one circle near u = 0, whose radius is nearly infinite, must not slow down all
 /// others.
 constexpr double kMinShare = 0.01;
-
-/// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t. And
-/// the share of its first slope with which the energy has to fall still at the end of a step.
-constexpr double kDecrease = 1e-4;
 
 /// Steps with the last factor after epsilon is reached; each gains about as many digits as the last
 /// full step did, at the cost of one evaluation.
@@ -267,8 +264,10 @@ bool NewtonSolver::searchLine(Run& run, Verdict verdict)
 		applyStep(run.u, t);
 		m_map->evaluate(m_trial, m_trialLow);
 		const double trialResidual = residual(run.target);
-		const bool falls = run.searchesSlope ? m_gradient.dot(m_direction) <= kDecrease * slope
-											 : m_gradient.norm() <= (1.0 - kDecrease * t) * norm;
+		// The energy still has to fall with a share of its first slope, or |K - target| falls by a share of t.
+		const double share = LineSearch::kDecrease;
+		const bool falls = run.searchesSlope ? m_gradient.dot(m_direction) <= share * slope
+											 : m_gradient.norm() <= (1.0 - share * t) * norm;
 		if (std::isfinite(trialResidual) && falls) {
 			run.result.residual = trialResidual;
 			return true;

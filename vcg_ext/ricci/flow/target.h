@@ -72,9 +72,7 @@ struct Target
 	VertexArray<char> fixed; ///< 1 where u keeps its value (free boundary, du = 0 in paper 5.3)
 	bool circular = false;   ///< boundary curvature to be adapted to a round disk
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
-	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
-									 ///< chosen to keep areas so far
-	std::optional<MapCost> expected; ///< where it was chosen to cost least
+	std::optional<MapCost> expected; ///< where it was chosen to cost least, or to keep areas
 	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
 	TargetUsed used = TargetUsed::Prescribed;
 	std::optional<double> expectedSpread; ///< see Report

@@ -27,31 +27,28 @@ constexpr double kTexel = 0x1p-14;
 /// axis.
 struct LaidOutTriangle
 {
-	double base, height;
+	double base;
 	std::complex<double> apex;
 
 	explicit LaidOutTriangle(const std::array<Point3, 3>& p)
 	{
 		const Point3 a = p[1] - p[0], b = p[2] - p[0], normal = cross(a, b);
 		base = length(a);
-		height = std::hypot(normal[0], normal[1], normal[2]) / base;
-		apex = {dot(a, b) / base, height};
+		apex = {dot(a, b) / base, std::hypot(normal[0], normal[1], normal[2]) / base};
 	}
 
 	explicit LaidOutTriangle(const std::array<double, 3>& sides)
 	{
-		const TriangleApex top = triangleApex(sides[0], sides[2], sides[1]);
 		base = sides[0];
-		height = top.height;
-		apex = {top.along, top.height};
+		apex = asComplex(triangleApex(base, sides[2], sides[1]));
 	}
 
-	double area() const { return base > 0.0 ? 0.5 * base * height : 0.0; }
+	double area() const { return base > 0.0 ? 0.5 * base * apex.imag() : 0.0; }
 
 	bool hasShape() const
 	{
 		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
-		return base > 0.0 && base * height > kTiny * longest * longest;
+		return base > 0.0 && base * apex.imag() > kTiny * longest * longest;
 	}
 };
 
@@ -63,7 +60,7 @@ double distortionOf(const LaidOutTriangle& own, const Triangle2& plane)
 	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
 	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
 	const std::complex<double> alongBase = b / own.base;
-	const std::complex<double> across = (c - alongBase * own.apex.real()) / own.height;
+	const std::complex<double> across = (c - alongBase * own.apex.real()) / own.apex.imag();
 	const std::complex<double> i(0.0, 1.0);
 	const double alpha = std::abs(alongBase - i * across);
 	const double beta = std::abs(alongBase + i * across);
@@ -84,9 +81,8 @@ Triangle2 chordTriangle(const Triangle2& p)
 	const double base = chordLength(x, y), left = chordLength(x, z), right = chordLength(y, z);
 	if (!(base > 0.0))
 		return {};
-	const TriangleApex apex = triangleApex(base, left, right);
-	const double height = orientationInDisk(p) < 0 ? -apex.height : apex.height;
-	return {{{0.0, 0.0}, {base, 0.0}, {apex.along, height}}};
+	const auto [along, height] = triangleApex(base, left, right);
+	return {{{0.0, 0.0}, {base, 0.0}, {along, orientationInDisk(p) < 0 ? -height : height}}};
 }
 
 } // namespace

@@ -66,8 +66,7 @@ Angle angleOf(Background background, double a, double b, double c, double produc
 	const double sum = a + b + c;
 	// sinh magnifies relative errors by l coth(l).
 	const double growth = background == Background::EuclideanPlane ? 1.0 : 1.0 + sum;
-	const double relative =
-		kLengthRounding * kUnitRoundoff * (sum / overB + sum / overC + 2.0 * growth);
+	const double relative = kLengthRounding * (sum / overB + sum / overC + 2.0 * growth);
 	const double tangent = std::sqrt(sine2 / (1.0 - sine2));
 	return {
 		2.0 * std::asin(std::sqrt(sine2)), std::min(relative * tangent, 2.0 * std::sqrt(relative))};
@@ -81,7 +80,7 @@ double explainedError(Background background, double ui, double uj)
 	const double slope = background == Background::EuclideanPlane
 							 ? 1.0
 							 : std::max({1.0, -1.0 / std::sinh(ui), -1.0 / std::sinh(uj)});
-	return kLengthRounding * kUnitRoundoff * (1.0 + std::max(std::abs(ui), std::abs(uj))) * slope;
+	return kLengthRounding * (1.0 + std::max(std::abs(ui), std::abs(uj))) * slope;
 }
 
 } // namespace

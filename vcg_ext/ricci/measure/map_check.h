@@ -4,6 +4,7 @@
 #define RICCI_MAP_CHECK_H
 
 #include "../base/points.h"
+#include "../base/tolerances.h"
 #include "../flow/ricci_flow.h"
 #include "../layout/flat_mesh.h"
 #include "../layout/parametrization.h"
@@ -112,7 +113,7 @@ int unequalSeams(const FlatMesh& mesh);
 /// its disk a step of a float is a longer way.
 int unequalSeamsInDisk(const Parametrization& map);
 
-constexpr double kTouchingSteps = 4.0, kUnequalShare = 1e-3;
+constexpr double kTouchingSteps = kMinFloatSteps, kUnequalShare = 1e-3;
 
 /// Errors of a map to the unit sphere, found from its triangles alone.
 struct SphereCheck

@@ -43,6 +43,14 @@ struct Component
 /// minority of incoherent order turned. Each is numbered breadth first from its lowest face.
 std::vector<Component> splitIntoComponents(const OpenedMesh& opened);
 
+/// [component] The first one that it is a copy of, or itself: its sides are as long, triangle by triangle and but for
+/// rounding, it is the same by a rigid motion where there are positions, and its vertices have the same values.
+/// \param selected, targetCurvature [vertex of the opened mesh] or empty
+std::vector<int> originals(
+	const std::vector<Component>& components,
+	const std::vector<char>& selected,
+	const std::vector<double>& targetCurvature);
+
 /// \throw InvalidMesh if edges have no length or faces no area, as rounding finds them
 void requireAreaEverywhere(const std::vector<Component>& components);
 

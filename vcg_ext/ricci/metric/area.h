@@ -32,23 +32,11 @@ double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths);
 /// them by Gauss-Bonnet.
 double hyperbolicArea(const Triangulation& t, const EdgeArray<double>& lengths);
 
-/// Place of the apex of a plane triangle over its base, which runs from 0 along the x axis:
-///
-///            apex
-///           /    \           .
-///     left / height \ right  .
-///         /        \         .
-///        0 --------- base
-///          along
-struct TriangleApex
-{
-	double along, height;
-};
-
-/// Apex from the lengths of the sides, by Heron's formula. Where the sides break the triangle
-/// inequality, the height is 0.
+/// Apex of a plane triangle over its base, which runs from 0 along the x axis, from the lengths of the sides by Heron's
+/// formula. Where these break the triangle inequality, it lies on that axis.
+/// \param left of the side at 0
 /// \pre \p base > 0
-inline TriangleApex triangleApex(double base, double left, double right)
+inline Point2 triangleApex(double base, double left, double right)
 {
 	const double heron = (base + left + right) * (base + left - right) * (base + right - left) *
 						 (left + right - base);

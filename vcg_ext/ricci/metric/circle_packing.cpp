@@ -43,7 +43,7 @@ EdgeArray<double> distancesLessOne(
 }
 
 /// Apex of the triangle on the left of h, with h along the x axis from 0.
-TriangleApex apexOver(const IntrinsicMesh& mesh, Halfedge h)
+Point2 apexOver(const IntrinsicMesh& mesh, Halfedge h)
 {
 	const Triangulation& t = mesh.triangulation;
 	return triangleApex(
@@ -68,17 +68,17 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 	const double foot = 0.5 * (l + (gi - gj) * (gi + gj) / l);
 	double sum = 0.0, magnitude = 0.0;
 	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
-		const TriangleApex apex = apexOver(mesh, h);
+		const auto [along, height] = apexOver(mesh, h);
 		const double g = radii.empty() ? 0.0 : radii[t.apex(h)];
 		const double own = h.isFirst() ? foot : l - foot; // foot and radius at the origin of h
 		const double go = h.isFirst() ? gi : gj;
 		// Height of the power centre over the edge: equal powers of apex and origin.
-		const double plus = apex.height * apex.height + apex.along * apex.along + go * go;
-		const double minus = 2 * apex.along * own + g * g;
-		if (!(apex.height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
+		const double plus = height * height + along * along + go * go;
+		const double minus = 2 * along * own + g * g;
+		if (!(height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
 			return !(plus < minus);
-		sum += (plus - minus) / (2 * apex.height);
-		magnitude += (plus + std::abs(minus)) / (2 * apex.height);
+		sum += (plus - minus) / (2 * height);
+		magnitude += (plus + std::abs(minus)) / (2 * height);
 	}
 	return sum >= -kManyRoundings * magnitude;
 }
@@ -137,10 +137,6 @@ bool shrinkOverlapping(
 	return overlap;
 }
 
-/// Excess that a needle is given at its short side, relative to its longest: ten times what flat triangles get.
-/// With less, refinements of disks with rounded coordinates have triangles that doubles cannot hold.
-constexpr double kNeedleExcess = 1e-4;
-
 /// Half of what the excess of a corner lacks, at its vertex, for the degenerate triangles: the largest of
 /// all of them there, and of all vertices at one place. Empty where no triangle is degenerate.
 VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& lengths)
@@ -158,7 +154,8 @@ VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& len
 		};
 		std::sort(side.begin(), side.end(), isShorter);
 		const double excess = (length(0) - length(2)) + length(1);
-		const double needed = kNeedleExcess * length(2);
+		// With less for needles, refinements of disks with rounded coordinates have triangles that doubles cannot hold.
+		const double needed = 10.0 * kMollification * length(2);
 		if (length(0) <= kMinIntrinsicHeight * length(2)) {
 			// Both ends of the short side. One scale for a triangle without size: that of its place.
 			raise(t.apex(side[2]), excess, needed);
@@ -240,8 +237,8 @@ Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths)
 
 double flippedLength(const IntrinsicMesh& mesh, Edge e)
 {
-	const TriangleApex k = apexOver(mesh, e.halfedge()), l = apexOver(mesh, e.halfedge().twin());
-	return std::hypot(k.along - (mesh.lengths[e] - l.along), k.height + l.height);
+	const Point2 k = apexOver(mesh, e.halfedge()), l = apexOver(mesh, e.halfedge().twin());
+	return std::hypot(k[0] - (mesh.lengths[e] - l[0]), k[1] + l[1]);
 }
 
 InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)

@@ -17,6 +17,9 @@ namespace ricci {
 /// both values with the slope, within bounds.
 struct LineSearch
 {
+	/// The share of the promised decrease that a step must reach (Armijo's rule).
+	static constexpr double kDecrease = 1e-4;
+
 	double shortest;                                 ///< the search fails below
 	double minShortening = 0.1, maxShortening = 0.5; ///< factors from one length to the next
 
@@ -30,10 +33,9 @@ struct LineSearch
 	double
 	run(double length, double slope, double now, const Value& valueAt, const Accepts& accepts) const
 	{
-		constexpr double decrease = 1e-4;
 		while (length >= shortest) {
 			const double value = valueAt(length), promised = slope * length;
-			if (value <= now + decrease * promised && accepts())
+			if (value <= now + kDecrease * promised && accepts())
 				return length;
 			const double vertex = -promised / (2.0 * (value - now - promised));
 			length *= std::isfinite(value) ? std::clamp(vertex, minShortening, maxShortening)

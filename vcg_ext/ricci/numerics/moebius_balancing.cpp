@@ -2,6 +2,7 @@
 #include "moebius_balancing.h"
 
 #include "../base/tolerances.h"
+#include "iteration.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -20,9 +21,6 @@ constexpr int kMaxSteps = 200;
 
 /// Largest length of a step in the hyperbolic metric of the ball.
 constexpr double kMaxStep = 2.0;
-
-/// Share of the expected decrease that a step must reach (Armijo's rule).
-constexpr double kArmijo = 1e-4;
 
 /// The boost by \p d, as it acts on the sphere: the Lorentz transformation of the light cone of all
 /// (1, x) that moves the centre of the ball by |d| against d. \p energy receives the change of the
@@ -87,7 +85,8 @@ double balanceByMoebius(std::vector<Point3>& points, const std::vector<double>& 
 		for (int halving = 0; halving < 40 && !moved; ++halving) {
 			boost(points, weights, d, trial, energy);
 			const double slope = -d.dot(mean) * total; // of the energy along d
-			moved = energy <= kArmijo * slope || std::abs(slope) < kManyRoundings * total;
+			moved =
+				energy <= LineSearch::kDecrease * slope || std::abs(slope) < kManyRoundings * total;
 			if (!moved)
 				d *= 0.5;
 		}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patches.h"
 
+#include "../base/tolerances.h"
+
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -131,20 +133,17 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The least height, and the least side, over the longest side of a shape of the surface.
-constexpr double kMinRatio = 1e-6;
-
 /// From the lengths of the sides 0-1, 1-2 and 2-0.
 RestShape shapeOf(const std::array<double, 3>& sides)
 {
 	const double longest = std::max({sides[0], sides[1], sides[2]});
 	if (!(longest > 0.0))
 		return {1.0, {0.5, std::sqrt(0.75)}};
-	double a = std::max(sides[0], kMinRatio * longest);
-	double b = std::max(sides[1], kMinRatio * longest);
-	double c = std::max(sides[2], kMinRatio * longest);
+	double a = std::max(sides[0], kMinIntrinsicHeight * longest);
+	double b = std::max(sides[1], kMinIntrinsicHeight * longest);
+	double c = std::max(sides[2], kMinIntrinsicHeight * longest);
 	const double x = (a * a + c * c - b * b) / (2.0 * a);
-	const double height = kMinRatio * longest * longest / a; // over side a
+	const double height = kMinIntrinsicHeight * longest * longest / a; // over side a
 	return {a, {x, std::max(std::sqrt(std::max(c * c - x * x, 0.0)), height)}};
 }
 
@@ -207,7 +206,7 @@ scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& s
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = flat.at(patch.triangles[i]);
 		double a = 0.5 * std::abs(doubledArea(p)), b = areaOf(shapes[i]);
-		if (const double side = longestSide(shapes[i]); b <= kMinRatio * side * side) {
+		if (const double side = longestSide(shapes[i]); b <= kMinIntrinsicHeight * side * side) {
 			a = longestSide(p) * longestSide(p);
 			b = side * side;
 		}

@@ -16,9 +16,6 @@ namespace ricci {
 
 namespace {
 
-/// Middles of texels this far outside of a triangle are in it: rounding.
-constexpr double kOnSide = 1e-6;
-
 /// Texels that a bilinear sample on the edge of a chart can read lie nearer.
 constexpr double kContinued = 1.5;
 

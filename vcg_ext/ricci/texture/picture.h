@@ -46,6 +46,9 @@ inline Triangle2 inTexels(const Triangle2& uv, int width, int height)
 		inTexels(uv[2], width, height)};
 }
 
+/// Rounding of coordinates in texels: middles of texels this far outside of a triangle are in it.
+constexpr double kOnSide = 1e-6;
+
 /// 2^level texels in each direction, the x-th from the left and the y-th from the top.
 struct Block
 {

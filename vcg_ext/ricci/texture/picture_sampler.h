@@ -296,7 +296,6 @@ private:
 
 	void addBilinear(Point2 p, const Chart& chart, MeanColour<Sample>& sum) const
 	{
-		constexpr double kNoWeight = 1e-6; // rounding of the coordinates
 		if (chart.repeats())
 			p = inside(p);
 		else if (!(p[0] > -1.0 && p[0] < m_picture.width + 1.0 && p[1] > -1.0 &&
@@ -306,7 +305,7 @@ private:
 		const double tx = p[0] - 0.5 - x, ty = p[1] - 0.5 - y;
 		const double sx = 1.0 - tx, sy = 1.0 - ty;
 		if (x >= 0 && x + 1 < m_picture.width && y >= 0 && y + 1 < m_picture.height &&
-			std::min({tx, ty, sx, sy}) > kNoWeight) {
+			std::min({tx, ty, sx, sy}) > kOnSide) {
 			const std::size_t upper = m_picture.index(x, y), lower = m_picture.index(x, y + 1);
 			if (chart.has(upper) && chart.has(upper + 1) && chart.has(lower) &&
 				chart.has(lower + 1)) {
@@ -318,7 +317,7 @@ private:
 		for (int dy = 0; dy < 2; ++dy)
 			for (int dx = 0; dx < 2; ++dx) {
 				const double weight = (dx == 0 ? sx : tx) * (dy == 0 ? sy : ty);
-				if (weight > kNoWeight && belongs(x + dx, y + dy, chart))
+				if (weight > kOnSide && belongs(x + dx, y + dy, chart))
 					sum.add(m_picture.rgba + 4 * index(x + dx, y + dy), weight);
 			}
 	}

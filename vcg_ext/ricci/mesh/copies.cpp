@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../base/numbers.h"
+#include "component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ricci {
+
+namespace {
+
+/// What sides of a component may differ by from those of a copy: coordinates that are all floats have been rounded to
+/// floats, others to doubles, and a motion has some more roundings. Nothing where lengths are given.
+double lengthNoise(const Component& component)
+{
+	double largest = 0.0;
+	bool areFloats = true;
+	for (const Point3& p : component.positions)
+		for (const double x : p) {
+			largest = std::max(largest, std::abs(x));
+			areFloats = areFloats && roundedToFloat(x) == x;
+		}
+	return component.lengths.empty() ? largest * (areFloats ? 0x1p-22 : 0x1p-50) : 0.0;
+}
+
+/// But by no larger share of the side, where coordinates are far from 0.
+constexpr double kMaxNoise = 1e-4;
+
+/// A component is compared with so many others of its size: more kinds of one size are hardly copies.
+constexpr std::size_t kMaxKinds = 100;
+
+/// Whether a rigid motion takes the vertices of one to those of the other: they are as far from four corners of a large
+/// tetrahedron, of the same orientation where it is not flat.
+bool isCongruent(const Component& a, const Component& b, double noise)
+{
+	std::array<Vertex, 4> corner{Vertex(0), Vertex(0), Vertex(0), Vertex(0)};
+	const auto volume = [&](const Component& c, Vertex v) {
+		const Point3 x = c.positions[corner[1]] - c.positions[corner[0]];
+		const Point3 y = c.positions[corner[2]] - c.positions[corner[0]];
+		return dot(cross(x, y), c.positions[v] - c.positions[corner[0]]);
+	};
+	const auto farthest = [&](const auto& size) {
+		Vertex best(0);
+		for (const Vertex v : a.positions.indices())
+			if (size(v) > size(best))
+				best = v;
+		return best;
+	};
+	corner[1] =
+		farthest([&](Vertex v) { return distance(a.positions[v], a.positions[corner[0]]); });
+	corner[2] = farthest([&](Vertex v) {
+		const Point3 from = a.positions[corner[0]];
+		return length(cross(a.positions[corner[1]] - from, a.positions[v] - from));
+	});
+	corner[3] = farthest([&](Vertex v) { return std::abs(volume(a, v)); });
+	const double own = volume(a, corner[3]), other = volume(b, corner[3]);
+	const double size = distance(a.positions[corner[1]], a.positions[corner[0]]);
+	if (std::abs(own) > noise * size * size && (own > 0.0) != (other > 0.0))
+		return false;
+	for (const Vertex v : a.positions.indices())
+		for (const Vertex c : corner)
+			if (!(std::abs(
+					  distance(a.positions[v], a.positions[c]) -
+					  distance(b.positions[v], b.positions[c])) <= noise))
+				return false;
+	return true;
+}
+
+/// \param noise of the lengths of both
+bool isCopy(const Component& a, const Component& b, double noise)
+{
+	const auto hasSameSides = [&](Face f) {
+		const std::array<double, 3> own = a.sides(f), other = b.sides(f);
+		return std::equal(own.begin(), own.end(), other.begin(), [&](double x, double y) {
+			return std::abs(x - y) <= std::min(noise, kMaxNoise * x);
+		});
+	};
+	if (!hasSameSides(Face(0)) || a.triangles != b.triangles || a.diagonal != b.diagonal ||
+		a.hole != b.hole || a.hasSeam != b.hasSeam || a.map != b.map)
+		return false;
+	for (const Face f : a.face.indices())
+		if (!hasSameSides(f))
+			return false;
+	return !a.lengths.empty() || isCongruent(a, b, noise);
+}
+
+/// Whether two components, whose vertices are in one order, have the same \p values [vertex of the opened mesh].
+template<class T>
+bool hasSame(const std::vector<T>& values, const Component& a, const Component& b)
+{
+	return values.empty() ||
+		   std::equal(
+			   a.vertex.begin(),
+			   a.vertex.end(),
+			   b.vertex.begin(),
+			   b.vertex.end(),
+			   [&](int v, int w) { return values[positionOf(v)] == values[positionOf(w)]; });
+}
+
+} // namespace
+
+std::vector<int> originals(
+	const std::vector<Component>& components,
+	const std::vector<char>& selected,
+	const std::vector<double>& targetCurvature)
+{
+	std::vector<int> original;
+	std::vector<double> noise;
+	std::map<std::array<std::size_t, 2>, std::vector<int>> bySize;
+	for (const Component& component : components) {
+		const auto number = static_cast<int>(original.size());
+		noise.push_back(lengthNoise(component));
+		std::vector<int>& others =
+			bySize[{component.triangles.size(), positionOf(component.vertex.size())}];
+		const auto found = std::find_if(others.begin(), others.end(), [&](int i) {
+			const Component& other = components[positionOf(i)];
+			return isCopy(other, component, noise[positionOf(i)] + noise.back()) &&
+				   hasSame(selected, other, component) &&
+				   hasSame(targetCurvature, other, component);
+		});
+		original.push_back(found == others.end() ? number : *found);
+		if (found == others.end() && others.size() < kMaxKinds)
+			others.push_back(number);
+	}
+	return original;
+}
+
+} // namespace ricci
