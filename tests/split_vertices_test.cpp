@@ -240,6 +240,26 @@ std::vector<Joining> joinings()
 
 INSTANTIATE_TEST_SUITE_P(Tried, JoinedVertices, ::testing::ValuesIn(joinings()), CallName());
 
+/// Halves of a soup that are parts of their own are joined within themselves, as each by itself.
+TEST(SplitVertices, OfDifferentPartsStayApart)
+{
+	SurfaceMesh mesh = soup(torus(3, 1, 12, 8));
+	const std::size_t half = mesh.positions.size() / 2;
+	const auto report = [&](JoinSplitVertices join) { return mapOf(mesh, join).report; };
+	const int joined = report(JoinSplitVertices::Always).joinedEdges;
+	EXPECT_EQ(joined, static_cast<int>(3 * mesh.triangles.size() / 2));
+	mesh.part.assign(mesh.positions.size(), 5);
+	EXPECT_EQ(report(JoinSplitVertices::Always).joinedEdges, joined);
+	std::fill(mesh.part.begin() + static_cast<std::ptrdiff_t>(half), mesh.part.end(), -1);
+	for (const JoinSplitVertices join : {JoinSplitVertices::Automatic, JoinSplitVertices::Always}) {
+		const Report r = report(join);
+		EXPECT_EQ(r.components, 2); // two tubes
+		EXPECT_EQ(r.boundaryLoops, 4);
+		EXPECT_EQ(r.joinedEdges, joined - 2 * 8);
+		EXPECT_EQ(r.piecesApart, 0);
+	}
+}
+
 /// Cells of a block.
 constexpr int kBlock = 6;
 using Block = std::array<std::array<std::array<int, kBlock + 2>, kBlock + 2>, kBlock + 2>;

@@ -126,6 +126,8 @@ RICCI_API int32_t ricci_set_parameter(ricci_run* run, const char* name, const ch
  *                                   of an edge is enough
  *     selected_faces     F          true: seams run round these, if the parameter seams says so
  *     quality            V          target curvature in radians, if target_curvature says so
+ *     part               V          any number: vertices of different parts are never joined, such as those of
+ *                                   several meshes
  *     uv                 F x 3 x 2  old texture coordinates of the corners, for the parameters seams and
  *                                   carry_texture; v grows upwards
  *     picture_of_face    F          the picture that the face shows, counted from 0 in the order of

@@ -98,11 +98,13 @@ struct SplitVertices
 ///
 /// So solids that touch stay apart, in a soup of faces too, and so do the two sides of a leaf.
 /// \param alone sides that no other face shares by index, see FaceGluing
+/// \param part see SurfaceMesh
 /// \pre no triangle uses a vertex twice; positions are finite
 SplitVertices findSplitVertices(
 	const Array<Point3>& positions,
 	const Array<Triangle>& triangles,
-	const std::vector<Corner>& alone);
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part);
 
 } // namespace ricci
 

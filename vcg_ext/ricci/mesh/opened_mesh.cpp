@@ -35,6 +35,7 @@ void checkElements(const SurfaceMesh& mesh)
 	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
 	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
 	requireLength("map", mesh.map.size(), mesh.triangles.size());
+	requireLength("part", mesh.part.size(), mesh.positions.size());
 	const auto vertices = static_cast<int>(mesh.positions.size());
 	std::size_t damaged = 0, notFinite = 0, huge = 0;
 	for (const Triangle& t : mesh.triangles)
@@ -116,7 +117,7 @@ public:
 		};
 		Array<Point3> normals;
 		if (opensSharp)
-			normals = normalsOf(m_positions.values(), m_triangles.values());
+			normals = normalsOf(m_positions.values(), m_triangles.values(), m_glued);
 		const auto isSharp = [&](Corner side) {
 			const Corner other = m_glued[side];
 			if (!opensSharp || !other.isValid() || isDiagonal(side) || isDiagonal(other))
@@ -246,7 +247,8 @@ private:
 	/// \return whether it has joined any
 	bool joinVertices(JoinSplitVertices join, const FaceGluing& gluing)
 	{
-		SplitVertices split = findSplitVertices(m_positions, m_triangles, gluing.alone);
+		SplitVertices split =
+			findSplitVertices(m_positions, m_triangles, gluing.alone, m_input.part);
 		if (split.joined.empty())
 			return false;
 		if (join == JoinSplitVertices::Always ||
