@@ -71,8 +71,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
-	How charts rotate for packing. <b>None</b>: not at all, and none is cut for packing. <b>Right angles</b>: straight ones
-	upright, others by 90 degrees.
+	<b>None</b>: charts do not rotate, and are not cut for packing. <b>Right angles</b>: straight ones upright, others by 90
+	degrees.
 - sharp_angle = 30 | Sharp angle (degrees) | float
 	The seams 'Sharp edges' are those at which the surface bends by more than this.
 - join_vertices = Automatic | Join split vertices | Automatic; Never; Always

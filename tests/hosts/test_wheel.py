@@ -69,6 +69,13 @@ def arrays(mesh):
     return numpy.array(mesh.vertices, dtype=float), numpy.array(mesh.faces)
 
 
+def write_stl(path, vertices, faces):
+    rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    rows["corners"] = vertices[faces]
+    with open(path, "wb") as target:
+        target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+
+
 def wheel_file():
     version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
     found, = glob.glob(os.path.join(common.BUILD, "release", f"ricciflow-{version}-*.whl"))
@@ -902,12 +909,9 @@ class Functions(unittest.TestCase):
     def test_formats_without_shared_vertices(self):
         """A surface of STL is one, unless its faces are wanted apart."""
         vertices, faces = arrays(meshes.double_torus())
-        rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
-        rows["corners"] = vertices[faces]
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "slab.stl")
-            with open(path, "wb") as target:
-                target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+            write_stl(path, vertices, faces)
             result = flatten(path)
             self.assertEqual((result.genus, result.components), (2, 1))
             self.assertEqual((result.joined_edges, result.pieces_apart), (3 * len(faces) // 2, 0))
@@ -1070,6 +1074,15 @@ class Together(unittest.TestCase):
             for key in ("joined_edges", "components", "boundary_loops"):
                 self.assertEqual(both[0].results[key], sum(one.results[key] for one in alone), key)
             self.assertEqual((both[0].components, both[0].pieces_apart), (2, 0))
+        # The cuts of one stay as they are beside the soup of another.
+        with tempfile.TemporaryDirectory() as folder:
+            write_stl(os.path.join(folder, "soup.stl"), vertices, faces)
+            results = flatten([os.path.join(folder, "soup.stl"), (whole, other)])
+            alone = flatten(whole, other)
+            self.assertEqual(results[0].joined_edges, 3 * len(faces) // 2)
+            self.assertGreater(alone.pieces_apart, 0)
+            for key, of_soup in (("pieces_apart", 0), ("boundary_loops", 0), ("components", 1)):
+                self.assertEqual(results[0].results[key], alone.results[key] + of_soup, key)
 
     def test_a_pair_is_one_mesh(self):
         vertices, faces = arrays(meshes.hill())

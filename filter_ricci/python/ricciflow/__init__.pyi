@@ -534,8 +534,8 @@ def flatten(
         remeshing, whose seams differ by quarter turns.
     seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
         ten times longer).
-    chart_rotation: How charts rotate for packing. None: not at all, and none is cut for
-        packing. Right angles: straight ones upright, others by 90 degrees.
+    chart_rotation: None: charts do not rotate, and are not cut for packing. Right angles:
+        straight ones upright, others by 90 degrees.
     sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
     join_vertices: Treat vertices that coincide along edges as one, as in formats that split
         them. Automatic: only if faces share almost no vertices.

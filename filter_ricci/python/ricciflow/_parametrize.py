@@ -309,7 +309,8 @@ def _solve_together(function, meshes, progress, keywords, parameters):
         if value is not None:
             raise TypeError(f"{name} is for one mesh: of several meshes, each has its own vertices and faces")
     given = [_loading.given_one(mesh, i, len(meshes)) for i, mesh in enumerate(meshes, 1)]
-    if any(mesh.is_split for mesh in given):
+    # Faces that share no vertices, as those of STL, are joined by themselves.
+    if any(mesh.is_split and len(mesh.vertices) < 3 * len(mesh.faces) for mesh in given):
         parameters.setdefault("join_vertices", "Always")
     whole = _loading.together(given, parameters)
     try:

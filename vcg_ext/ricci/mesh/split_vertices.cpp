@@ -7,6 +7,9 @@
 #include "sides.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
 
 namespace ricci {
 
@@ -66,6 +69,24 @@ void sortRound(const RunsUp& runsUp, std::vector<Page>& pages, std::vector<int>&
 }
 
 } // namespace
+
+std::array<std::vector<Corner>, 2> sidesToJoin(
+	const Array<Triangle>& triangles,
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part,
+	bool all)
+{
+	const auto partOf = [&](int v) { return part.empty() ? 0 : part[positionOf(v)]; };
+	std::map<int, std::int64_t> excess; // [part] tenths of sides over nine tenths
+	for (const Triangle& t : triangles.values())
+		excess[partOf(t[0])] -= 9 * 3;
+	for (const Corner side : alone)
+		excess[partOf(triangles[side])] += 10;
+	std::array<std::vector<Corner>, 2> divided;
+	for (const Corner side : alone)
+		divided[!all && excess[partOf(triangles[side])] < 0].push_back(side);
+	return divided;
+}
 
 SplitVertices findSplitVertices(
 	const Array<Point3>& positions,

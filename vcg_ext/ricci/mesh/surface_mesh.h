@@ -41,8 +41,8 @@ struct SurfaceMesh
 	/// there are. Both sides of an edge have one length. Empty: they are distances of positions.
 	std::vector<std::array<double, 3>> lengths = {};
 
-	/// [vertex] Vertices of different parts are not joined (JoinSplitVertices), such as those of several meshes; may be
-	/// empty.
+	/// [vertex] Vertices of different parts, such as several meshes, are not joined, and JoinSplitVertices::Automatic decides
+	/// for each part; may be empty.
 	std::vector<int> part = {};
 };
 
