@@ -207,6 +207,65 @@ TEST(ChosenSeams, AreSharpEdges)
 	EXPECT_EQ(disk.components - disk.leftOutComponents, 2);
 }
 
+/// Two sheets at a right angle, one with the points \p left on their common edge, the other with \p right; between
+/// them lie faces without area.
+SurfaceMesh sheetsWithGap(const std::vector<double>& left, const std::vector<double>& right)
+{
+	SurfaceMesh mesh{{{0, 0, 0}, {0, 1, 0}, {0, 0.5, 1}, {1, 0.5, 0}}, {}};
+	const auto chain = [&](const std::vector<double>& inside) {
+		std::vector<int> points{0};
+		for (const double y : inside) {
+			points.push_back(static_cast<int>(mesh.positions.size()));
+			mesh.positions.push_back({0, y, 0});
+		}
+		points.push_back(1);
+		return points;
+	};
+	const std::vector<int> p = chain(left), q = chain(right);
+	for (std::size_t i = 0; i + 1 < p.size(); ++i)
+		mesh.triangles.push_back({2, p[i + 1], p[i]});
+	for (std::size_t j = 0; j + 1 < q.size(); ++j)
+		mesh.triangles.push_back({q[j], q[j + 1], 3});
+	mesh.triangles.push_back({0, p[1], q[1]});
+	for (std::size_t i = 1, j = 1; i + 1 < p.size() || j + 1 < q.size();) {
+		const bool isLast = i + 2 == p.size() && j + 2 == q.size();
+		const bool isLeft = j + 1 == q.size() || isLast ||
+							(i + 2 < p.size() && left[i] < (j + 2 < q.size() ? right[j] : 1.0));
+		if (isLeft)
+			mesh.triangles.push_back({p[i], p[i + 1], q[j]});
+		else
+			mesh.triangles.push_back({p[i], q[j + 1], q[j]});
+		if (mesh.triangles.back()[1] == mesh.triangles.back()[2])
+			mesh.triangles.pop_back();
+		i += isLeft;
+		j += !isLeft || isLast;
+	}
+	return mesh;
+}
+
+/// The edge passes the faces without area along one of their sides.
+TEST(ChosenSeams, AreSharpEdgesBesideFacesWithoutArea)
+{
+	Options options = unscaled();
+	for (const auto& [left, right] :
+		 std::vector<std::pair<std::vector<double>, std::vector<double>>>{
+			 {{0.5}, {}},
+			 {{0.2, 0.3, 0.6, 0.9}, {}},
+			 {{0.5}, {0.5}},
+			 {{0.25, 0.75}, {0.5}},
+			 {{0.1, 0.5, 0.7}, {0.3, 0.5, 0.6, 0.9}}}) {
+		const SurfaceMesh gap = sheetsWithGap(left, right);
+		ASSERT_EQ(gap.triangles.size(), 2 * (left.size() + right.size() + 1));
+		for (const SurfaceMesh& mesh : {gap, withReversedFaces(gap, 2), withReversedFaces(gap, 3)})
+			for (const double degrees : {89.0, 91.0}) {
+				options.sharpAngle = degrees * kPi / 180.0;
+				const Report r = parametrizeEuclidean(mesh, {}, options).report;
+				EXPECT_EQ(r.charts, degrees < 90.0 ? 2 : 1);
+				EXPECT_NEAR(r.chosenSeamLength, degrees < 90.0 ? 1.0 : 0.0, 1e-15);
+			}
+	}
+}
+
 TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)
 {
 	constexpr int kAround = 12, kAcross = 8;

@@ -173,6 +173,11 @@ std::vector<Log> logs()
 		 "cones, which are expected to lower the objective from # to #; as a whole: energy #, "
 		 "seams # "
 		 "(objective #); cut along creases and unfolded: energy #, seams # (objective #)"},
+		{{"FixedTriangles", donut, with([](Options& o) { o.method = Method::FixedTriangles; })},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {{l.component("a closed surface of genus 1 (a torus)")}, l.newton()};
+		 },
+		 "no cones, because only the method 'Intrinsic flips' places them to keep areas"},
 		{{"FlatSheet", rectangle(4, 4, 1, 1), Options()},
 		 [=](const Lines& l, const Parametrization& map) -> Groups {
 			 return {

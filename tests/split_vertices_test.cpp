@@ -230,6 +230,45 @@ std::vector<Joining> joinings()
 
 INSTANTIATE_TEST_SUITE_P(Tried, JoinedVertices, ::testing::ValuesIn(joinings()), CallName());
 
+/// Halves of a soup that are parts of their own are joined within themselves, as each by itself.
+TEST(SplitVertices, OfDifferentPartsStayApart)
+{
+	SurfaceMesh mesh = soup(torus(3, 1, 12, 8));
+	const std::size_t half = mesh.positions.size() / 2;
+	const auto report = [&](JoinSplitVertices join) { return mapOf(mesh, join).report; };
+	const int joined = report(JoinSplitVertices::Always).joinedEdges;
+	EXPECT_EQ(joined, static_cast<int>(3 * mesh.triangles.size() / 2));
+	mesh.part.assign(mesh.positions.size(), 5);
+	EXPECT_EQ(report(JoinSplitVertices::Always).joinedEdges, joined);
+	std::fill(mesh.part.begin() + static_cast<std::ptrdiff_t>(half), mesh.part.end(), -1);
+	for (const JoinSplitVertices join : {JoinSplitVertices::Automatic, JoinSplitVertices::Always}) {
+		const Report r = report(join);
+		EXPECT_EQ(r.components, 2); // two tubes
+		EXPECT_EQ(r.boundaryLoops, 4);
+		EXPECT_EQ(r.joinedEdges, joined - 2 * 8);
+		EXPECT_EQ(r.piecesApart, 0);
+	}
+	// Beside a part that shares its vertices, but for cuts that may be meant.
+	SurfaceMesh other = cube();
+	for (int v = 0; v < 4; ++v)
+		other.positions.push_back(other.positions[at(v)]);
+	for (std::size_t f = 0; f < 2; ++f)
+		for (int& v : other.triangles[f])
+			v += 8;
+	for (int i = 0; i < 40; ++i)
+		other = sideBySide(other, cube(), 2.0 + 2 * i);
+	const std::size_t count = mesh.positions.size();
+	mesh = sideBySide(mesh, other, 10.0);
+	mesh.part.assign(mesh.positions.size(), 0);
+	const Report whole = report(JoinSplitVertices::Automatic);
+	std::fill(mesh.part.begin() + static_cast<std::ptrdiff_t>(count), mesh.part.end(), 1);
+	const Report parts = report(JoinSplitVertices::Automatic);
+	EXPECT_EQ(whole.joinedEdges, 0);
+	EXPECT_EQ(whole.piecesApart, static_cast<int>(count) / 3 - 1 + 1);
+	EXPECT_EQ(parts.joinedEdges, joined);
+	EXPECT_EQ(parts.piecesApart, 1);
+}
+
 /// Cells of a block.
 constexpr int kBlock = 6;
 using Block = std::array<std::array<std::array<int, kBlock + 2>, kBlock + 2>, kBlock + 2>;

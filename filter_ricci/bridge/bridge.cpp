@@ -18,9 +18,10 @@
 #include <vcg/complex/algorithms/update/normal.h>
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filter_ricci {
@@ -141,11 +142,12 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 	return *model;
 }
 
-/// What the surface is to be opened by: sides of faces, or a map.
+/// What the surface is to be opened by: sides of faces, or a map; and what is not to be joined.
 struct Openings
 {
 	Flow::SideMarks marks;
 	Flow::TextureMap map;
+	Flow::Parts parts;
 };
 
 /// \throw Refusal if the mesh has none of what was chosen
@@ -153,6 +155,7 @@ Openings chosenSeams(const MeshModel& model, Seams seams)
 {
 	using Chosen = vcg::tri::RicciSeams<CMeshO>;
 	Openings openings;
+	openings.parts = host::parts(model);
 	Flow::SideMarks& marks = openings.marks;
 	switch (seams) {
 	case Seams::Shortest:
@@ -283,7 +286,7 @@ void addFlatLayer(
 	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
 	if (texture.isWanted())
-		texture.assignTo(flat);
+		texture.assignTo(flat, {});
 	else
 		host::copyTextures(model, flat);
 	if (colourTop > 1.0) {
@@ -365,7 +368,7 @@ void writeMesh(
 	bool colorize,
 	ricci::OutputTriangulation output,
 	const Flow::Result& result,
-	const Results& results,
+	const Outcome& outcome,
 	const CarriedTexture& texture)
 {
 	const bool hadOwnColours = hasOwnColours(model);
@@ -380,9 +383,9 @@ void writeMesh(
 		Flow::WriteVertexQuality(model.cm, result); // first, because memory may run out there
 		Flow::WriteWedgeTexCoord(model.cm, result);
 	}
-	texture.assignTo(model);
+	texture.assignTo(model, outcome.origin);
 	if (colorize) {
-		colorizeByDistortion(model, colourRampTop(results));
+		colorizeByDistortion(model, colourRampTop(outcome.results));
 		own() = fingerprint(model.cm);
 	}
 	else if (hadOwnColours)
@@ -411,7 +414,8 @@ Flow::Result computeFor(
 			"Texture: its charts are kept " + ricci::numberText(margin * texels, 3) +
 			" pixels apart, more than {padding}.");
 	}
-	Flow::Result result = Flow::Compute(model.cm, settings.flow, seams.marks, seams.map);
+	Flow::Result result =
+		Flow::Compute(model.cm, settings.flow, seams.marks, seams.map, seams.parts);
 	if (result.report.margin < texture.minMargin())
 		throw Refusal(
 			"There are " + std::to_string(result.report.charts) +
@@ -492,16 +496,19 @@ public:
 			{"padding_pixels",
 			 result.report.margin * texelsOf(texture, m_settings.texture),
 			 "Pixels between charts and to the border"});
-		const std::vector<std::string> sentences = summary(filter, par, result.report, results);
+		Outcome outcome;
+		outcome.sentences = summary(filter, par, result.report, results);
+		outcome.details = {toReason(results, result.report.choice)};
 		RunReport report{
 			filterText(filter).name,
 			host::name(model),
 			sizeOf(model.cm),
 			settingsAsText(par),
-			result.notes,
+			outcome.sentences,
 			results,
 			result};
-		report.notes.insert(report.notes.end(), sentences.begin(), sentences.end());
+		for (const std::vector<std::string>& more : {outcome.details, result.notes})
+			report.notes.insert(report.notes.end(), more.begin(), more.end());
 		for (std::string& note : report.notes)
 			note = withNames(filter, note);
 		m_report.write(report);
@@ -511,12 +518,12 @@ public:
 		ricci::checkpoint();
 		texture.publish();
 		for (const std::string& file : m_report.publish())
-			ricci::logLine("Report: " + file);
+			outcome.details.push_back("Report: " + file);
 		const bool recolours = m_settings.colorize || hasOwnColours(model);
-		Outcome outcome{
-			results, sentences, changedElements(recolours, texture.isWanted(), output), {}, {}};
+		outcome.changedElements = changedElements(recolours, texture.isWanted(), output);
+		outcome.results = std::move(results);
 		tellOrigins(result.mesh, model.cm, output, outcome);
-		writeMesh(model, m_settings.colorize, output, result, results, texture);
+		writeMesh(model, m_settings.colorize, output, result, outcome, texture);
 		layers.keep();
 		return outcome;
 	}
@@ -532,7 +539,7 @@ private:
 	summary(int filter, const Parameters& par, const ricci::Report& report, const Results& results)
 		const
 	{
-		std::vector<std::string> lines{toSentence(results, report.choice)};
+		std::vector<std::string> lines{toSentence(filter, results)};
 		for (const std::string& doubt : doubts(filter, results, par))
 			lines.push_back(doubt);
 		for (const std::string& line : ignored(filter, results, par))
@@ -609,7 +616,8 @@ Outcome applyHyperbolic(const Parameters& par, MeshDocument& md, ricci::Progress
 	run.task.setMemoryLimit(freeMemory()); // beside the pictures
 	const Flow::Result result = [&] {
 		const ricci::Task flow(0.0, run.flowShare());
-		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams.marks, run.seams.map);
+		return Flow::ComputeHyperbolic(
+			run.model.cm, settings.flow, run.seams.marks, run.seams.map, run.seams.parts);
 	}();
 	Results results = toResults(result.report);
 	if (result.report.components - result.report.leftOutComponents == 1 &&
@@ -648,15 +656,25 @@ int postConditions()
 
 Outcome applyFilter(int filter, const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
+	const auto start = std::chrono::steady_clock::now();
 	Named progress(filter, listener);
 	Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
 										   : applyEuclidean(par, md, progress);
-	for (const std::string& line : toLogLines(outcome.results))
-		listener.log(line);
+	const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+	outcome.sentences.front() +=
+		" It took " + ricci::numberText(std::round(100.0 * elapsed.count()) / 100.0, 6) + " s.";
 	for (std::string& line : outcome.sentences)
-		listener.log(line = withNames(filter, line));
+		line = withNames(filter, line);
+	std::vector<std::string> first = outcome.sentences, then = outcome.details;
 	if (*host::kHistogramName != 0)
-		listener.log(whereToLook(valueOf<bool>(par, "colorize"), outcome.results));
+		first.push_back(whereToLook(valueOf<bool>(par, "colorize"), outcome.results));
+	for (std::string& line : toLogLines(outcome.results))
+		then.push_back(std::move(line));
+	if (host::hasWindow()) // it shows the end of the log
+		first.swap(then);
+	for (const std::vector<std::string>& lines : {first, then})
+		for (const std::string& line : lines)
+			listener.log(line);
 	return outcome;
 }
 

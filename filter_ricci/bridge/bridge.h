@@ -30,10 +30,11 @@ struct Outcome
 {
 	Results results;
 	std::vector<std::string>
-		sentences;           ///< the first one sums up the run, the others are doubts about the map
-	int changedElements;     ///< MeshModel::MeshElement bits
-	std::vector<int> chart;  ///< [face of the mesh as it is now] -1 where it has none
-	std::vector<int> origin; ///< [likewise] the face that it is a piece of
+		sentences; ///< the first one says what came out, the others are doubts about the map
+	std::vector<std::string> details; ///< further lines of the log
+	int changedElements = 0;          ///< MeshModel::MeshElement bits
+	std::vector<int> chart;           ///< [face of the mesh as it is now] -1 where it has none
+	std::vector<int> origin;          ///< [likewise] the face that it is a piece of
 };
 
 /// The exception being handled, as one or more sentences for the user: the mesh is unchanged. Call it inside a

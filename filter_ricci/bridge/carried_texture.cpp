@@ -10,8 +10,6 @@
 #include <ricci/measure/distortion.h>
 #include <ricci/texture/old_charts.h>
 
-#include <vcg/complex/algorithms/update/color.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -123,6 +121,7 @@ void CarriedTexture::readFaces(const MeshModel& model)
 	const bool faceColours = vcg::tri::HasPerFaceColor(m);
 	m_mesh.faces.resize(m.face.size());
 	m_areas.resize(m.face.size(), 0.0);
+	m_hasPicture.resize(m.face.size(), 0);
 	m_pictures.resize(m.textures.size());
 	bool any = false;
 	for (std::size_t f = 0; f < m.face.size(); ++f) {
@@ -159,6 +158,7 @@ void CarriedTexture::readFaces(const MeshModel& model)
 				m_hasAlpha = m_hasAlpha || colour[3] < 1.0f;
 		else
 			++m_uncoloured;
+		m_hasPicture[f] = to.picture >= 0 ? 1 : 0;
 		any = any || to.picture >= 0 || vertexColours || faceColours;
 	}
 	if (!any)
@@ -368,16 +368,17 @@ void CarriedTexture::require(bool written) const
 			"): choose another place for it. The mesh is unchanged.");
 }
 
-void CarriedTexture::assignTo(MeshModel& model) const
+void CarriedTexture::assignTo(MeshModel& model, const std::vector<int>& origin) const
 {
 	if (!isWanted())
 		return;
 	host::setTexture(model, m_name, m_result);
 	// Coordinates of vertices, where there are some, belong to the old textures.
 	model.clearDataMask(MeshModel::MM_VERTTEXCOORD);
-	// Files of materials multiply the image by the colours of faces, which are in it or were the old images'.
 	if (vcg::tri::HasPerFaceColor(model.cm))
-		vcg::tri::UpdateColor<CMeshO>::PerFaceConstant(model.cm, vcg::Color4b::White);
+		for (std::size_t f = 0; f < origin.size(); ++f)
+			if (m_hasPicture[ricci::positionOf(origin[f])] == 0)
+				model.cm.face[f].C() = vcg::Color4b(vcg::Color4b::White);
 }
 
 } // namespace filter_ricci

@@ -48,8 +48,10 @@ public:
 	/// \throw Refusal if that cannot be done
 	void publish();
 
-	/// Makes it the only texture of a mesh.
-	void assignTo(MeshModel& model) const;
+	/// Makes it the only texture of a mesh. What faces without a texture showed is in it, so their own colours become
+	/// white: files of materials multiply the texture by them. Others keep this tint.
+	/// \param origin [face] that it is a piece of
+	void assignTo(MeshModel& model, const std::vector<int>& origin) const;
 
 private:
 	void readFaces(const MeshModel& model);
@@ -71,6 +73,7 @@ private:
 	bool m_fits = false; ///< it is to have texels as fine as the old ones
 	ricci::CarriedMesh m_mesh;   // its faces are those of the mesh, its triangles those of the map
 	std::vector<double> m_areas; // [face]
+	std::vector<char> m_hasPicture;        // [face]
 	std::vector<host::Picture> m_pictures; // [texture of the mesh] null where no face has it
 	bool m_hasAlpha = false, m_hasWords = false;
 	int m_uncoloured = 0; ///< faces with neither texture nor colour

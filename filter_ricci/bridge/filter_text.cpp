@@ -73,13 +73,11 @@ std::string describedFilter(int filter)
 	std::string json = "{\"name\":" + quoted(text.name) +
 					   ",\"python_name\":" + quoted(text.pythonName) +
 					   ",\"info\":" + quoted(text.info) + ",\"renamed\":";
-	char before = '{';
-	for (const auto& [old, now] : kRenamed) {
-		json += before + quoted(old) + ":" + quoted(now);
-		before = ',';
-	}
-	json += "},\"parameters\":";
-	before = '[';
+	std::string renamed;
+	for (const auto& [old, now] : renamedParameters(filter))
+		renamed += (renamed.empty() ? "" : ",") + quoted(old) + ":" + quoted(now);
+	json += "{" + renamed + "},\"parameters\":";
+	char before = '[';
 	for (const Parameter& p : filterParameters(filter)) {
 		json += before + described(p);
 		before = ',';

@@ -43,7 +43,7 @@ carry_texture = | Transfer texture to | PNG image (*.png)
 layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 	Add the mesh laid out in the plane, cut along its seams, or mapped conformally to the unit sphere (closed surfaces of
 	genus 0).
-+ charts = Without overlap, cut for room | Charts | As the flow has them; Without overlap; Without overlap, cut for room; As they are, only packed
++ charts = Without overlap, cut for packing | Charts | As the flow has them; Without overlap; Without overlap, cut for packing; As they are, only packed
 	Leave charts whole, split those that overlap, or with <b>Automatic</b> also for better packing. <b>Only packed</b>: the
 	old islands keep their shape.
 + normalize_uv = true | Fit into the unit square | bool
@@ -71,8 +71,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
-	How charts rotate for packing: not at all (then none is cut for it); straight ones upright, others by right angles; or
-	by any angle.
+	<b>None</b>: charts do not rotate, and are not cut for packing. <b>Right angles</b>: straight ones upright, others by 90
+	degrees.
 - sharp_angle = 30 | Sharp angle (degrees) | float
 	The seams 'Sharp edges' are those at which the surface bends by more than this.
 - join_vertices = Automatic | Join split vertices | Automatic; Never; Always
@@ -310,23 +310,30 @@ Parameters dialogParameters(int filter)
 	return list;
 }
 
-const std::array<std::pair<const char*, const char*>, 3> kRenamed = {
-	{{"chart_margin",
-	  "it is 'padding' now, in pixels of texture_size: 0.004 is 4 at texture_size 1024"},
-	 {"flat_layer", "it is layers='Flat mesh' now"},
-	 {"sphere_layer", "it is layers='Sphere' now, or 'Flat mesh and sphere'"}}};
-
-std::string noSuchParameter(const Parameters& parameters, const std::string& name)
+const std::map<std::string, std::string>& renamedParameters(int filter)
 {
+	static const std::map<std::string, std::string> none,
+		euclidean{
+			{"chart_margin",
+			 "it is 'padding' now, in pixels of texture_size: 0.004 is 4 at texture_size 1024"},
+			{"flat_layer", "it is layers='Flat mesh' now"},
+			{"sphere_layer", "it is layers='Sphere' now, or 'Flat mesh and sphere'"}};
+	return filter == Hyperbolic ? none : euclidean;
+}
+
+std::string noSuchParameter(int filter, const std::string& name)
+{
+	const auto renamed = renamedParameters(filter).find(name);
 	std::string here;
-	for (const auto& [old, now] : kRenamed)
-		here = old == name ? now : here;
-	for (const Parameter& p : here.empty() ? parameters : Parameters())
-		here += (here.empty() ? "it is one of '" : ", '") + p.name + "'";
+	if (renamed != renamedParameters(filter).end())
+		here = renamed->second;
+	else
+		for (const Parameter& p : filterParameters(filter))
+			here += (here.empty() ? "it is one of '" : ", '") + p.name + "'";
 	return "The filter has no parameter '" + name + "': " + here + ".";
 }
 
-void setOptions(Parameters& parameters, const std::string& text)
+void setOptions(int filter, Parameters& parameters, const std::string& text)
 {
 	for (const std::string& part : split(text, ";")) {
 		const std::string option = trimmed(part);
@@ -336,7 +343,7 @@ void setOptions(Parameters& parameters, const std::string& text)
 		const std::string name = trimmed(option.substr(0, equals));
 		Parameter* const p = findParameter(parameters, name);
 		if (p == nullptr)
-			throw Refusal(noSuchParameter(parameters, name));
+			throw Refusal(noSuchParameter(filter, name));
 		if (p->place != Place::Options)
 			throw Refusal(
 				"{" + name + "} is a parameter of its own: set it there, not as an option.");

@@ -8,7 +8,7 @@
 
 #include <ricci/options.h>
 
-#include <array>
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -46,15 +46,15 @@ const Parameters& filterParameters(int filter);
 /// The same as dialogs have them: those of Place::Options are one text, "options".
 Parameters dialogParameters(int filter);
 
-/// Gives parameters of Place::Options the values in a text "name=value; name=value".
+/// Gives parameters of a filter that are in Place::Options the values in a text "name=value; name=value".
 /// \throw Refusal
-void setOptions(Parameters& parameters, const std::string& text);
+void setOptions(int filter, Parameters& parameters, const std::string& text);
 
-/// Names that parameters had before version 3, and what is said of them.
-extern const std::array<std::pair<const char*, const char*>, 3> kRenamed;
+/// Names that parameters of a filter had before version 3, and what is said of them.
+const std::map<std::string, std::string>& renamedParameters(int filter);
 
-/// The sentence that refuses a name which none of the \p parameters has.
-std::string noSuchParameter(const Parameters& parameters, const std::string& name);
+/// The sentence that refuses a name which no parameter of a filter has.
+std::string noSuchParameter(int filter, const std::string& name);
 
 /// Gives a parameter the value that a text names: a choice by its name, in any case, or its number; true, false, 1 or
 /// 0; a number in no locale, also nan and inf; a path.

@@ -4,13 +4,14 @@
 #include <ricci/base/numbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
-#include <iomanip>
 #include <ios>
 #include <limits>
 #include <locale>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -190,29 +191,42 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 	results.push_back({"generators_error", group.relationError, "Error of their relation"});
 }
 
-std::string toSentence(const Results& results, const std::string& choice)
+std::string toSentence(int filter, const Results& results)
 {
+	const auto count = [](int n, const std::string& of) {
+		return (n == 0 ? "no" : std::to_string(n)) + " " + of + (n == 1 ? "" : "s");
+	};
 	const int charts = resultOf<int>(results, "charts");
-	const int cones = resultOf<int>(results, "cones");
-	const int flipped =
-		resultOf<int>(results, "flipped_faces") + resultOf<int>(results, "flipped_by_rounding");
 	const int overlapping = resultOf<int>(results, "overlapping_faces");
-	std::ostringstream line;
-	line.imbue(std::locale::classic());
-	line.precision(2);
-	if (!choice.empty())
-		line << "Automatic chose " << choice << ". ";
-	line << "Curvature within " << resultOf<double>(results, "max_curvature_error")
-		 << " rad of the target after " << resultOf<int>(results, "iterations")
-		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
-		 << resultOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
-		 << "by a factor of " << resultOf<double>(results, "area_distortion_mean") << ", "
-		 << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ");
-	if (overlapping > 0)
-		line << overlapping << (overlapping == 1 ? " overlapping face, " : " overlapping faces, ");
-	line << cones << (cones == 1 ? " cone, " : " cones, ") << charts
-		 << (charts == 1 ? " chart." : " charts.");
-	return line.str();
+	std::string text =
+		filter == Hyperbolic
+			? count(charts, "chart") + " in the unit disk"
+			: count(charts, "chart") + " (UV islands) " + (charts == 1 ? "fills " : "fill ") +
+				  std::to_string(std::lround(100.0 * resultOf<double>(results, "occupancy"))) +
+				  " % of the square";
+	text +=
+		", with " + count(resultOf<int>(results, "cones"), "cone") +
+		(overlapping > 0 ? ", " + count(overlapping, "overlapping face") : "") + " and " +
+		count(
+			resultOf<int>(results, "flipped_faces") + resultOf<int>(results, "flipped_by_rounding"),
+			"flipped face") +
+		".";
+	return text + " The mean angle distortion is " +
+		   ricci::numberText(resultOf<double>(results, "qc_area_mean"), 4) +
+		   " (1: none), the mean area distortion " +
+		   ricci::numberText(resultOf<double>(results, "area_distortion_mean"), 4) + ".";
+}
+
+std::string toReason(const Results& results, const std::string& choice)
+{
+	return (choice.empty() ? "" : "Automatic chose " + choice + ". ") + "The curvature is within " +
+		   ricci::numberText(resultOf<double>(results, "max_curvature_error"), 2) +
+		   " rad of its target after " +
+		   ricci::counted(
+			   static_cast<std::size_t>(resultOf<int>(results, "iterations")),
+			   "Newton step",
+			   "Newton steps") +
+		   ".";
 }
 
 std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par)
@@ -270,22 +284,24 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
 			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForPacking))
 				 ? "Chosen seams ({seams}) divide it into charts that pack better."
-				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' divides "
+				 : "The target 'Automatic' with the charts 'Without overlap, cut for packing' "
+				   "divides "
 				   "it into charts that pack better."));
 	return lines;
 }
 
 std::vector<std::string> ignored(int filter, const Results& results, const Parameters& par)
 {
-	const auto isSet = [&](const char* id) {
+	const auto isSet = [&](const std::string& id) {
 		return findParameter(par, id)->value != findParameter(filterParameters(filter), id)->value;
 	};
 	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
 	const int loops = resultOf<int>(results, "boundary_loops");
 	std::vector<std::string> lines;
-	const auto tell = [&](const char* id, bool hasNoEffect, const std::string& why) {
-		if (hasNoEffect && isSet(id))
-			lines.push_back("{" + std::string(id) + "} has no effect: " + why);
+	std::set<std::string> told;
+	const auto tell = [&](const std::string& id, bool hasNoEffect, const std::string& why) {
+		if (hasNoEffect && isSet(id) && told.insert(id).second)
+			lines.push_back("{" + id + "} has no effect: " + why);
 	};
 	if (valueOf<std::string>(par, "carry_texture").empty()) {
 		const bool isPadded = filter == Euclidean && valueOf<int>(par, "padding") > 0;
@@ -318,19 +334,26 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 			"output_triangulation finish method epsilon free_boundary ";
 		const std::string why = "the charts stay as they are.";
 		for (const Parameter& p : par)
-			tell(p.name.c_str(), ofFlow.find(" " + p.name + " ") != std::string::npos, why);
+			tell(p.name, ofFlow.find(" " + p.name + " ") != std::string::npos, why);
 		tell("seams", !is("seams", static_cast<int>(Seams::Texture)), why);
 		return lines;
 	}
 	const bool placesCones =
 		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Automatic)) ||
 		is("target_curvature", static_cast<int>(ricci::TargetCurvature::PlacedCones));
+	const bool hasCones = resultOf<int>(results, "cones") > 0;
+	const bool isWeighed = std::any_of(results.begin(), results.end(), [](const Result& result) {
+		return result.key == "expected_spread";
+	});
 	for (const char* id : {"cone_count", "cone_distortion", "cone_rounding"})
 		tell(id, !placesCones, "only 'Automatic' and 'Placed cones' place cones.");
 	tell(
 		"cone_distortion",
-		placesCones && valueOf<int>(par, "cone_count") > 0,
+		valueOf<int>(par, "cone_count") > 0,
 		"{cone_count} says how many cones are placed.");
+	tell("cone_distortion", !hasCones && !isWeighed, "no cones are placed.");
+	for (const char* id : {"cone_count", "cone_rounding"})
+		tell(id, !hasCones, "no cones are placed.");
 	tell(
 		"chart_rotation",
 		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle)),

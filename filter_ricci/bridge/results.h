@@ -35,9 +35,12 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 /// \pre group.isCanonical()
 void addGenerators(const ricci::FuchsianGroup& group, Results& results);
 
-/// What a person wants to know of a run.
+/// What came out, in two sentences.
+std::string toSentence(int filter, const Results& results);
+
+/// Why it is this map, and how exact it is.
 /// \param choice see ricci::Report
-std::string toSentence(const Results& results, const std::string& choice);
+std::string toReason(const Results& results, const std::string& choice);
 
 /// What makes the use of the map doubtful, and what helps.
 std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par);

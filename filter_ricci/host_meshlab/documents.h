@@ -9,6 +9,7 @@
 #include <QString>
 
 #include <string>
+#include <vector>
 
 namespace filter_ricci::host {
 
@@ -39,6 +40,12 @@ inline std::string name(const MeshModel& model)
 inline std::string folder(const MeshModel& model)
 {
 	return model.pathName().toStdString();
+}
+
+/// All of it is one.
+inline std::vector<int> parts(const MeshModel&)
+{
+	return {};
 }
 
 } // namespace filter_ricci::host

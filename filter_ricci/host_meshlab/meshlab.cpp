@@ -65,9 +65,9 @@ RichParameterList richParameters(int filter)
 Parameters fromRich(int filter, const RichParameterList& par)
 {
 	Parameters parameters = filterParameters(filter);
-	for (const auto& [old, now] : kRenamed)
-		if (par.hasParameter(old) && findParameter(parameters, old) == nullptr)
-			throw Refusal(noSuchParameter(parameters, old));
+	for (const auto& [old, now] : renamedParameters(filter))
+		if (par.hasParameter(QString::fromStdString(old)))
+			throw Refusal(noSuchParameter(filter, old));
 	for (Parameter& p : parameters) {
 		const QString name = QString::fromStdString(p.name);
 		const bool isGiven = par.hasParameter(name);
@@ -85,7 +85,7 @@ Parameters fromRich(int filter, const RichParameterList& par)
 			p.value = host::text(par, name).toStdString();
 	}
 	if (par.hasParameter("options"))
-		setOptions(parameters, par.getString("options").toStdString());
+		setOptions(filter, parameters, par.getString("options").toStdString());
 	return parameters;
 }
 

@@ -103,6 +103,7 @@ public:
 	CMeshO cm;
 	std::string label, name, folder;
 	std::vector<filter_ricci::host::Picture> pictures; ///< [texture of cm]
+	std::vector<int> parts;                            ///< [vertex] ricci::SurfaceMesh::part
 
 private:
 	int m_has = 0;
@@ -155,6 +156,11 @@ inline const std::string& name(const MeshModel& model)
 inline const std::string& folder(const MeshModel& model)
 {
 	return model.folder;
+}
+
+inline const std::vector<int>& parts(const MeshModel& model)
+{
+	return model.parts;
 }
 
 /// A layer shows the pictures of the mesh: there is no need of copies.

@@ -126,6 +126,8 @@ RICCI_API int32_t ricci_set_parameter(ricci_run* run, const char* name, const ch
  *                                   of an edge is enough
  *     selected_faces     F          true: seams run round these, if the parameter seams says so
  *     quality            V          target curvature in radians, if target_curvature says so
+ *     part               V          any number: vertices of different parts are never joined, such as those of
+ *                                   several meshes
  *     uv                 F x 3 x 2  old texture coordinates of the corners, for the parameters seams and
  *                                   carry_texture; v grows upwards
  *     picture_of_face    F          the picture that the face shows, counted from 0 in the order of
@@ -192,7 +194,7 @@ RICCI_API const char* ricci_output_name(const ricci_run* run, int64_t number);
  *     log_radius         V          FLOAT64  logarithms of the radii of the flow's circles, up to a constant
  *     target_curvature   V          FLOAT64  radians
  *     vertex_colors      V x 4      UINT8    if the input has them or the parameter colorize is true
- *     face_colors        F x 4      UINT8    if the input has them
+ *     face_colors        F x 4      UINT8    if the input has them; white where the picture shows them
  *     picture            height x width x channels, 3 or 4, of UINT8 or UINT16, as for ricci_add_picture(): with
  *                                   carry_texture
  *     results.KEY        BOOL, INT32 or FLOAT64, one number or a row of them: the results in the order of the report

@@ -104,6 +104,7 @@ constexpr Kind kKinds[] = {
 	{"selected_edges", 'F', 2, {3, 0}, true},
 	{"selected_faces", 'F', 1, {0, 0}, true},
 	{"quality", 'V', 1, {0, 0}, false},
+	{"part", 'V', 1, {0, 0}, true},
 	{"uv", 'F', 3, {3, 2}, false},
 	{"picture_of_face", 'F', 1, {0, 0}, true},
 	{"vertex_colors", 'V', 2, {4, 0}, false},
@@ -312,7 +313,7 @@ void LibraryRun::setParameter(const std::string& name, const std::string& value)
 {
 	Parameter* const parameter = findParameter(m_parameters, name);
 	if (parameter == nullptr)
-		throw Misuse(noSuchParameter(m_parameters, name));
+		throw Misuse(noSuchParameter(m_filter, name));
 	const std::string problem = setFromText(*parameter, value);
 	if (!problem.empty())
 		throw Misuse(problem);
@@ -453,6 +454,9 @@ void LibraryRun::fill(MeshDocument& document) const
 	each("selected_faces", m.face, 1, select);
 	if (input("quality") != nullptr)
 		model.updateDataMask(MeshModel::MM_VERTQUALITY);
+	each("part", m.vert, 1, [&](CVertexO&, const Array& a, std::size_t i) {
+		model.parts.push_back(static_cast<int>(a[i]));
+	});
 	each("quality", m.vert, 1, [](CVertexO& v, const Array& a, std::size_t i) { v.Q() = a[i]; });
 	if (input("uv") != nullptr)
 		model.updateDataMask(MeshModel::MM_WEDGTEXCOORD);

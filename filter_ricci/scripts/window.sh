@@ -117,6 +117,25 @@ press_apply() {
 	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 21)) click 1
 }
 
+# apply_script FILE: Filters > Show current filter script, with that one.
+apply_script() {
+	xdotool mousemove 116 28 click 1
+	sleep 2
+	xdotool key Down Return
+	sleep 3
+	xdotool mousemove 446 527 click 1 # Open Script
+	wait_until 20 xdotool search --onlyvisible --name 'Open Filter Script' || return 1
+	sleep 1
+	xdotool type --delay 40 "$1"
+	sleep 1
+	xdotool key Return
+	sleep 1
+	# The first Return may only have closed the list of names that the field proposes.
+	! xdotool search --onlyvisible --name 'Open Filter Script' >/dev/null || xdotool key Return
+	sleep 1
+	xdotool mousemove 788 527 click 1 # Apply Script
+}
+
 # run_filter NAME SECONDS: the filter with its defaults on the open mesh. Sets verdict to solved,
 # refused (the box with the reason is open then), ended (MeshLab is no more), or to what did not come.
 run_filter() {

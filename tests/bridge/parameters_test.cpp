@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <sstream>
 #include <string>
@@ -152,8 +153,10 @@ TEST(Parameters, AreReadFromOptions)
 {
 	Parameters parameters = filterParameters(Euclidean);
 	setOptions(
-		parameters, " cone_count = 3;; report=a b=1.html ;cone_rounding=multiples of PI/2; ");
-	setOptions(parameters, "");
+		Euclidean,
+		parameters,
+		" cone_count = 3;; report=a b=1.html ;cone_rounding=multiples of PI/2; ");
+	setOptions(Euclidean, parameters, "");
 	EXPECT_EQ(valueOf<int>(parameters, "cone_count"), 3);
 	EXPECT_EQ(valueOf<int>(parameters, "cone_rounding"), 1);
 	EXPECT_EQ(valueOf<std::string>(parameters, "report"), "a b=1.html");
@@ -166,10 +169,17 @@ TEST(Parameters, AreReadFromOptions)
 		  std::pair("padding=4", "{padding} is a parameter of its own")}) {
 		const std::string found = refusal([&text = text] {
 			Parameters other = filterParameters(Euclidean);
-			setOptions(other, text);
+			setOptions(Euclidean, other, text);
 		});
 		EXPECT_NE(found.find(sentence), std::string::npos) << found;
 	}
+	// The hyperbolic filter has always had flat_layer, and never the others.
+	for (const auto& [old, now] : renamedParameters(Euclidean))
+		EXPECT_EQ(
+			noSuchParameter(Hyperbolic, old),
+			"The filter has no parameter '" + old + "'" +
+				noSuchParameter(Hyperbolic, "other")
+					.substr(std::strlen("The filter has no parameter 'other'")));
 }
 
 /// A quarter of the texture at most.

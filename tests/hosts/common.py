@@ -52,7 +52,7 @@ TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selecte
 METHOD = ["Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"]
 CHOICES = {"target_curvature": TARGET, "seams": SEAMS, "method": METHOD,
            "layers": ["None", "Flat mesh", "Sphere", "Flat mesh and sphere"],
-           "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for room",
+           "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for packing",
                       "As they are, only packed"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],

@@ -177,9 +177,11 @@ class Results(unittest.TestCase):
         self.assertIn("converged=true", run.text)
 
     def test_every_line_of_the_log_starts_a_line(self):
-        run = run_on(meshes.torus())
-        self.assertRegex(run.text, r"(?m)^Result: converged=true iterations=\d+ ")
-        self.assertRegex(run.text, r"(?m)^Surface: euler_characteristic=0 ")
+        """First what came out, doubts, and where to look, then the details."""
+        run = run_on(meshes.torus(), sharp_angle=10.0, report="page.csv")
+        self.assertRegex(run.text, r"(?ms)^\d charts? \(UV islands\) fills? .* s\.$\s*^sharp_angle has no effect: "
+                         r".*^To see it: .*^Automatic chose .*^Report: .*"
+                         r"^Result: converged=true iterations=\d+ .*^Surface: euler_characteristic=0 ")
 
 
 class AnyTriangles(unittest.TestCase):
@@ -597,6 +599,31 @@ class Samples(unittest.TestCase):
                              lambda target: meshes.write_ply(target, meshes.torus()))
             self.assertEqual(run.code, 0, run.text)
             self.assertIn("page.csv", run.text)
+
+    def test_scripts_of_2(self):
+        """Refused as they are; they run once the lines of the changelog are in the place of those it names."""
+        with open(os.path.join(common.REPOSITORY, "CHANGELOG.md"), encoding="utf-8") as source:
+            section = re.search(r"(?s)\n## \[3\.0\.0\].*?(?=\n## \[2)", source.read()).group()
+        rows = re.findall(r"(?m)^  \| .*?, (E|E, H) \| `(<Param .*/>)` \|$", section)
+        both = [("colorize", "Bool", True), ("report", "String", ""), ("time_limit", "Float", 0.0)]
+        plane = [("chart_margin", "Float", 0.004), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),
+                 ("cone_count", "Int", 0), ("cone_rounding", "Enum", 0), ("seam_hiding", "Float", 0.0)]
+        for our_filter, mark, mesh, former in ((common, "E", meshes.torus, plane + both),
+                                               (common.HYPERBOLIC, "H", meshes.double_torus, both)):
+            choices = {**our_filter.CHOICES, **our_filter.RARE_CHOICES, "seams": common.SEAMS[:4],
+                       "charts": common.CHOICES["charts"][:3]}
+            new = [line for filters, line in rows if mark in filters]
+            added = set(re.findall('name="(\\w+)"', "".join(new)))
+            old = {name: server.parameter_xml(name, kind, value, choices)
+                   for name, kind, value in our_filter.PARAMETERS + former if name not in added}
+            gone = {name for name, _, _ in former}
+            self.assertLessEqual(gone, set(re.findall("`(\\w+)`", section)))
+            kept = [line for name, line in old.items() if name not in gone]
+            for lines, code in ((list(old.values()), 255), (kept + new, 0)):
+                run = server.Run(server.script_of(f' <filter name="{our_filter.NAME}">\n{"".join(lines)} </filter>\n'),
+                                 lambda path, mesh=mesh: meshes.write_ply(path, mesh()))
+                self.assertEqual(run.code, code, run.text)
+            self.assertIn("The colours show the distortion", run.text)
 
 
 if __name__ == "__main__":

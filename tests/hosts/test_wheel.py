@@ -69,6 +69,13 @@ def arrays(mesh):
     return numpy.array(mesh.vertices, dtype=float), numpy.array(mesh.faces)
 
 
+def write_stl(path, vertices, faces):
+    rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    rows["corners"] = vertices[faces]
+    with open(path, "wb") as target:
+        target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+
+
 def wheel_file():
     version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
     found, = glob.glob(os.path.join(common.BUILD, "release", f"ricciflow-{version}-*.whl"))
@@ -495,29 +502,62 @@ class Functions(unittest.TestCase):
                 flatten(vertices, faces, **wrong)
 
     def test_what_has_no_effect_is_said(self):
-        torus, hill = arrays(meshes.torus()), arrays(meshes.hill())
-        for mesh, values, ignored in (
-                (torus, {"target_curvature": "Flat everywhere", "cone_count": 4}, {"cone_count"}),
-                (hill, {"target_curvature": "Disk", "cone_rounding": "Multiples of pi/2"},
+        """Once, and only that."""
+        torus, hill, slab = (arrays(mesh()) for mesh in (meshes.torus, meshes.hill, meshes.double_torus))
+        given = {"charts": "As they are, only packed", "uv": hill[0][hill[1]][:, :, :2]}
+        for function, mesh, values, ignored in (
+                (flatten, torus, {"target_curvature": "Flat everywhere", "cone_count": 4,
+                                  "cone_rounding": "Multiples of pi/2", "cone_distortion": 0.3},
+                 {"cone_count", "cone_rounding", "cone_distortion"}),
+                (flatten, hill, {"target_curvature": "Disk", "cone_rounding": "Multiples of pi/2"},
                  {"cone_rounding"}),
-                (torus, {"cone_count": 4, "cone_distortion": 0.3}, {"cone_distortion"}),
-                (torus, {"method": "Fixed triangles", "finish": "Repair"}, {"finish"}),
-                (torus, {"texture_size": 512, "padding": 0, "free_boundary": False},
+                (flatten, torus, {"cone_count": 4, "cone_distortion": 0.3}, {"cone_distortion"}),
+                (flatten, torus, {"method": "Fixed triangles", "finish": "Repair"}, {"finish"}),
+                (flatten, torus, {"method": "Fixed triangles", "cone_count": 4}, {"cone_count"}),
+                (flatten, torus, {"method": "Fixed triangles", "cone_distortion": 0.3},
+                 {"cone_distortion"}),
+                (flatten, torus, {"texture_size": 512, "padding": 0, "free_boundary": False},
                  {"texture_size", "free_boundary"}),
-                (torus, {"texture_size": 0}, {"texture_size"}),
-                (torus, {"texture_size": 512}, set()),
-                (torus, {"sharp_angle": 10.0}, {"sharp_angle"}),
-                (hill, {"seams": "Sharp edges", "sharp_angle": 180.0}, {"seams"}),
-                (hill, {"charts": "As they are, only packed", "uv": hill[0][hill[1]][:, :, :2],
-                        "finish": "Repair", "cone_count": 3}, {"finish", "cone_count"}),
-                (hill, {"holes": "Capped"}, {"holes"}),
-                (hill, {"free_boundary": False}, set()),
-                (torus, {"cone_distortion": 0.3}, set())):
+                (flatten, torus, {"texture_size": 0}, {"texture_size"}),
+                (flatten, torus, {"texture_size": 512}, set()),
+                (flatten, torus, {"sharp_angle": 10.0}, {"sharp_angle"}),
+                (flatten, hill, {"seams": "Sharp edges", "sharp_angle": 180.0}, {"seams"}),
+                (flatten, hill, {**given, "finish": "Repair", "cone_count": 3, "method": "Fixed triangles"},
+                 {"finish", "cone_count", "method"}),
+                (flatten, hill, {"holes": "Capped"}, {"holes"}),
+                (flatten, hill, {"free_boundary": False}, set()),
+                (flatten, hill, {"target_curvature": "Rectangle", "chart_rotation": "None"},
+                 {"chart_rotation"}),
+                (flatten, torus, {"cone_distortion": 0.3}, set()),
+                (uniformize, slab, {"method": "Fixed triangles", "finish": "None"}, {"finish"}),
+                (uniformize, slab, {"free_boundary": True, "cone_angle": 90.0, "texture_size": 512,
+                                    "sharp_angle": 10.0},
+                 {"free_boundary", "cone_angle", "texture_size", "sharp_angle"}),
+                (uniformize, slab, {"cone_angle": 90.0, "selected": [0]}, set())):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                told = flatten(*mesh, **values).messages
-            self.assertEqual({line.split()[0] for line in told if "has no effect" in line},
-                             ignored, values)
+                told = function(*mesh, **values).messages
+            self.assertEqual(sorted(line.split()[0] for line in told if "has no effect" in line),
+                             sorted(ignored), values)
+
+    def test_the_log_ends_with_what_came_out(self):
+        """First that, then the doubts, then the details."""
+        for function, mesh, what in (
+                (flatten, meshes.torus(), r"\(UV islands\) fills? {fill} % of the square"),
+                (uniformize, meshes.double_torus(), "in the unit disk")):
+            result = function(*arrays(mesh), sharp_angle=10.0)
+            start = len(result.log) - len(result.messages) - 4
+            charts, cones = (f"{n or 'no'} {of}{'s' if n != 1 else ''}" for n, of in (
+                (result.charts, "chart"), (result.cones, "cone")))
+            what = what.format(fill=round(100 * result.occupancy))
+            self.assertRegex(result.log[start], rf"^{charts} {what}, with {cones} and no flipped faces\. "
+                             r"The mean angle distortion is [\d.]+ \(1: none\), the mean area distortion "
+                             r"[\d.]+\. It took [\d.]+ s\.$")
+            numbers = [float(x) for x in re.findall(r"distortion(?: is)? (\d+\.?\d*)\b", result.log[start])]
+            for number, key in zip(numbers, ("qc_area_mean", "area_distortion_mean"), strict=True):
+                self.assertAlmostEqual(number, result.results[key], delta=1e-3 * number)
+            self.assertEqual(result.log[start + 1:-3], result.messages)
+            self.assertRegex("\n".join(result.log[-3:]), r"^(Automatic|The curvature) .*\nResult: .*\nSurface: .*$")
 
     def test_real_size_has_the_same_charts(self):
         for mesh in (meshes.torus(), meshes.double_torus(), meshes.hill()):
@@ -823,6 +863,8 @@ class Functions(unittest.TestCase):
                 (TypeError, "'flat_layer': it is layers='Flat mesh' now", {"flat_layer": True}),
                 (TypeError, "'sphere_layer': it is layers='Sphere' now", {"sphere_layer": True}),
                 (TypeError, "'options': its names are parameters", {"options": "time_limit=1"}),
+                (ValueError, "'Without overlap, cut for room'.*'Without overlap, cut for packing'",
+                 {"charts": "Without overlap, cut for room"}),
                 (ValueError, "'Disc' is not a choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
                 (ValueError, "'Torus' is not a choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
                 (ValueError, "^target_curvature: 99", {"target_curvature": 99}),
@@ -867,12 +909,9 @@ class Functions(unittest.TestCase):
     def test_formats_without_shared_vertices(self):
         """A surface of STL is one, unless its faces are wanted apart."""
         vertices, faces = arrays(meshes.double_torus())
-        rows = numpy.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
-        rows["corners"] = vertices[faces]
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "slab.stl")
-            with open(path, "wb") as target:
-                target.write(b" " * 80 + numpy.uint32(len(faces)).tobytes() + rows.tobytes())
+            write_stl(path, vertices, faces)
             result = flatten(path)
             self.assertEqual((result.genus, result.components), (2, 1))
             self.assertEqual((result.joined_edges, result.pieces_apart), (3 * len(faces) // 2, 0))
@@ -899,6 +938,12 @@ class Functions(unittest.TestCase):
             self.assertLess(numpy.abs(numpy.abs(change) / abs(change[0]) - 1).max(), 1e-4)  # floats
             unit = change / numpy.abs(change)
             self.assertLess(numpy.abs(unit ** symmetry - 1).max(), 1e-3, rotation)
+        # A chart that keeps its direction is not cut for packing.
+        torus = arrays(meshes.torus())
+        cut, kept, whole = ((result.charts, result.overlap_cuts) for result in (
+            flatten(*torus), flatten(*torus, chart_rotation="None"), flatten(*torus, charts="Without overlap")))
+        self.assertGreater(cut, whole)
+        self.assertEqual(kept, whole)
 
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))
@@ -926,6 +971,11 @@ class Functions(unittest.TestCase):
             self.assertEqual(places[:common.SHOWN + 1], common.SHOWN * ["shown"] + ["advanced"])
             self.assertEqual(names[places.index("options"):], [name for name, _, _ in our_filter.RARE])
             self.assertLessEqual(len(our_filter.PARAMETERS), 16)
+            options = subprocess.run(
+                [sys.executable, "-m", "ricciflow", *["--hyperbolic"] * (our_filter is common.HYPERBOLIC), "--help"],
+                env=dict(os.environ, PYTHONPATH=os.path.join(common.BUILD, "python")),
+                capture_output=True, text=True, check=True).stdout.split("parameters of the filter:")[1]
+            self.assertEqual(re.findall(r"(?m)^  --([\w-]+)", options), [name.replace("_", "-") for name in names])
         self.assertLess(max(map(len, pydoc.render_doc(function).splitlines()[:3])), 100)
         with self.assertRaisesRegex(TypeError, "did you mean 'seams'"):
             documents.compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(seam="Shortest")
@@ -933,16 +983,17 @@ class Functions(unittest.TestCase):
         self.assertEqual(returned["genus"], 1)
         if not ricciflow.pymeshlab.USES_PLUGIN:
             return
-        values = documents.filter_parameter_values(common.PYTHON_NAME)
-        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS + common.RARE])
-        for parameter in DESCRIPTIONS[0]["parameters"]:
-            default = parameter["default"]
-            if parameter["type"] == "enum":
-                default = parameter["choices"].index(default)
-            found = values[parameter["name"]]
-            if parameter["type"] == "float":
-                found = float(f"{found:.7g}")  # single precision in the host
-            self.assertEqual(found, default)
+        for our_filter, _, description in FILTERS:
+            values = documents.filter_parameter_values(our_filter.PYTHON_NAME)
+            self.assertEqual(list(values), [name for name, _, _ in our_filter.PARAMETERS + our_filter.RARE])
+            for parameter in description["parameters"]:
+                default = parameter["default"]
+                if parameter["type"] == "enum":
+                    default = parameter["choices"].index(default)
+                found = values[parameter["name"]]
+                if parameter["type"] == "float":
+                    found = float(f"{found:.7g}")  # single precision in the host
+                self.assertEqual(found, default)
 
     def test_types(self):
         """The stub has what the module has, with the same parameters."""
@@ -1008,6 +1059,31 @@ class Together(unittest.TestCase):
             self.assertLess(numpy.abs(self.densities(result) / density - 1).max(), 1e-4)  # floats
             self.assertEqual(result.charts, whole.charts)
 
+    def test_meshes_stay_apart(self):
+        """Halves of a torus meet along edges, and faces of one mesh that share no vertices are joined."""
+        vertices, faces = arrays(meshes.torus())
+        half = len(faces) // 2
+        whole = numpy.concatenate((vertices, vertices))
+        other = numpy.concatenate((faces[:half], faces[half:] + len(vertices)))
+        self.assertGreater(flatten(whole, other, join_vertices="Always").joined_edges, 0)
+        parts = [(vertices[part].reshape(-1, 3), numpy.arange(3 * len(part)).reshape(-1, 3))
+                 for part in (faces[:half], faces[half:])]
+        for join in ("Automatic", "Always"):
+            alone = [flatten(*part, join_vertices=join) for part in parts]
+            both = flatten(parts, join_vertices=join)
+            for key in ("joined_edges", "components", "boundary_loops"):
+                self.assertEqual(both[0].results[key], sum(one.results[key] for one in alone), key)
+            self.assertEqual((both[0].components, both[0].pieces_apart), (2, 0))
+        # The cuts of one stay as they are beside the soup of another.
+        with tempfile.TemporaryDirectory() as folder:
+            write_stl(os.path.join(folder, "soup.stl"), vertices, faces)
+            results = flatten([os.path.join(folder, "soup.stl"), (whole, other)])
+            alone = flatten(whole, other)
+            self.assertEqual(results[0].joined_edges, 3 * len(faces) // 2)
+            self.assertGreater(alone.pieces_apart, 0)
+            for key, of_soup in (("pieces_apart", 0), ("boundary_loops", 0), ("components", 1)):
+                self.assertEqual(results[0].results[key], alone.results[key] + of_soup, key)
+
     def test_a_pair_is_one_mesh(self):
         vertices, faces = arrays(meshes.hill())
         pair = flatten([vertices, faces])
@@ -1059,8 +1135,25 @@ class Together(unittest.TestCase):
         one = arrays(meshes.hill())
         with self.assertRaisesRegex(TypeError, "selected is for one mesh"):
             flatten([one, one], selected=[1])
-        with self.assertRaises(ricciflow.Refused):
-            flatten([one, arrays(meshes.with_nan(meshes.hill()))])
+        broken = arrays(meshes.with_nan(meshes.hill()))
+        with self.assertRaises(ricciflow.Refused) as alone:
+            flatten(*broken)
+        with self.assertRaises(ricciflow.Refused) as together:
+            flatten([one, broken, broken], time_limit=60)
+        self.assertEqual(str(together.exception), f"Mesh 2 of 3: {alone.exception}")
+        needles = arrays(meshes.swirled(meshes.plane(12)))
+        for refused, values, place in (
+                (one, {"target_curvature": "Flat everywhere"}, ""),
+                (needles, {"method": "Fixed triangles"}, f"Component with face 0 ({len(needles[1])} faces): ")):
+            with self.assertRaises(ricciflow.Refused) as alone:
+                flatten(*refused, **values)
+            with self.assertRaises(ricciflow.Refused) as together:
+                flatten([arrays(meshes.torus()), refused], **values)
+            self.assertEqual(str(together.exception), f"Mesh 2 of 2: {place}{alone.exception}")
+        with self.assertRaisesRegex(ricciflow.Refused, "^The run was stopped"):
+            flatten([one, one], time_limit=1e-9)
+        with self.assertRaisesRegex(ValueError, "^The value -1 of cone_count"):
+            flatten([one, one], cone_count=-1)
         with self.assertRaisesRegex(ricciflow.Refused, "no texture coordinates: mesh 1, mesh 2"):
             flatten([one, one], charts="As they are, only packed")
         with self.assertRaisesRegex(ValueError, "Mesh 2 of 2: .*indices from 0"):

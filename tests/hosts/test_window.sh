@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # test_window.sh BUILD_DIR: the filter in the real MeshLab 2020.09 window: through its search field,
-# its dialog and Apply, once on a mesh that it solves and once on one that it refuses. Leaves
+# its dialog and Apply, once on a mesh that it solves and once on one that it refuses, and by scripts. Leaves
 # pictures in BUILD_DIR/pictures. Exit 77: the window cannot be opened on this machine.
 set -euo pipefail
 build=$(cd "$1" && pwd)
@@ -54,6 +54,30 @@ solved() {
 	picture "$pictures/result.png"
 	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
 	close_meshlab
+}
+
+# Stored scripts name parameters as before: those that are options now are read, others are answered with the new name.
+scripted() {
+	write_script options '<Param type="RichInt" name="cone_count" value="5"/><Param type="RichFloat" name="time_limit" value="60"/>'
+	write_script renamed '<Param type="RichFloat" name="chart_margin" value="0.004"/>'
+	open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
+	apply_script "$folder/options.mlx" || fail "no script can be opened"
+	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the script had no result"
+	grep -q ', with 5 cones and no flipped faces' "$meshlab_log" || fail "the script did not say how many cones"
+	close_meshlab
+	open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
+	apply_script "$folder/renamed.mlx" || fail "no script can be opened"
+	wait_until 60 grep -q "no parameter 'chart_margin': it is 'padding' now" "$meshlab_log" ||
+		fail "the old name is not answered with the new one"
+	close_meshlab
+}
+
+# write_script NAME PARAMETER...
+write_script() {
+	local path=$folder/$1.mlx
+	shift
+	printf '<!DOCTYPE FilterScript>\n<FilterScript>\n <filter name="%s">\n  %s\n </filter>\n</FilterScript>\n' \
+		"$name" "$*" >"$path"
 }
 
 # What its search field finds is for the eye, too: pictures search_WORD.png.
@@ -113,5 +137,6 @@ write_meshes
 open_display "$folder/display" || { echo "SKIPPED: no display could be opened"; exit 77; }
 found
 solved
+scripted
 refused
 echo "The filter ran in the window; pictures are in $pictures"

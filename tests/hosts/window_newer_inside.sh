@@ -57,27 +57,6 @@ redraw_texture() {
 	close_meshlab
 }
 
-# Filters > Show current filter script, with one of the samples.
-apply_script() {
-	xdotool mousemove 116 28 click 1
-	sleep 2
-	xdotool key Down Return
-	sleep 3
-	xdotool mousemove 446 527 click 1 # Open Script
-	wait_until 20 xdotool search --onlyvisible --name 'Open Filter Script' || fail "no script can be opened"
-	sleep 1
-	xdotool type --delay 40 "$PWD/automatic.mlx"
-	sleep 1
-	xdotool key Return
-	sleep 1
-	# The first Return may only have closed the list of names that the field proposes.
-	! xdotool search --onlyvisible --name 'Open Filter Script' >/dev/null || xdotool key Return
-	sleep 1
-	xdotool mousemove 788 527 click 1 # Apply Script
-	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the script had no result"
-	close_meshlab
-}
-
 # Help > Plugin Info > Load Plugins, as a person would.
 load_plugin() {
 	local dialog X Y WIDTH HEIGHT SCREEN WINDOW
@@ -122,7 +101,9 @@ apply "$hyperbolic" hyperbolic
 open_mesh textured.ply
 redraw_texture
 open_mesh torus.ply
-apply_script
+apply_script "$PWD/automatic.mlx" || fail "no script can be opened"
+wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the script had no result"
+close_meshlab
 open_mesh line.ply
 open_filter "$name" || fail "the filter's dialog did not open"
 press_apply "$name"

@@ -450,9 +450,9 @@ def flatten(
     charts: Union[int, Literal[
         'As the flow has them',
         'Without overlap',
-        'Without overlap, cut for room',
+        'Without overlap, cut for packing',
         'As they are, only packed',
-    ]] = 'Without overlap, cut for room',
+    ]] = 'Without overlap, cut for packing',
     normalize_uv: bool = True,
     holes: Union[int, Literal[
         'Boundaries',
@@ -534,8 +534,8 @@ def flatten(
         remeshing, whose seams differ by quarter turns.
     seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
         ten times longer).
-    chart_rotation: How charts rotate for packing: not at all (then none is cut for it);
-        straight ones upright, others by right angles; or by any angle.
+    chart_rotation: None: charts do not rotate, and are not cut for packing. Right angles:
+        straight ones upright, others by 90 degrees.
     sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
     join_vertices: Treat vertices that coincide along edges as one, as in formats that split
         them. Automatic: only if faces share almost no vertices.

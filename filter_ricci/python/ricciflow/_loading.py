@@ -241,7 +241,8 @@ def together(meshes, parameters):
     whole = Given(numpy.concatenate([mesh.vertices for mesh in meshes]),
                   numpy.concatenate([mesh.faces + numpy.int32(start)
                                      for mesh, start in zip(meshes, first)]),
-                  f"{len(meshes)} meshes")
+                  f"{len(meshes)} meshes",
+                  part=numpy.repeat(numpy.arange(len(meshes)), [len(mesh.vertices) for mesh in meshes]))
     for mesh in meshes:
         if mesh.pictures and mesh.arrays.get("picture_of_face") is None:  # the first one, unless it is said
             mesh.arrays["picture_of_face"] = numpy.zeros(len(mesh.faces), numpy.int32)

@@ -5,13 +5,14 @@ import html
 import inspect
 import math
 import os
+import re
 import typing
 import warnings
 
 import numpy
 
 from . import _library, _loading
-from ._errors import RicciWarning
+from ._errors import Refused, RicciWarning
 from ._filters import DESCRIPTIONS, checked, documentation, signature
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
 from ._watched import teller, watched
@@ -277,6 +278,29 @@ def of_one(outputs, vertices, faces):
     return own
 
 
+def _of_its_mesh(number, given, parameters, problem):
+    """The refusal of several meshes with the mesh that it is about, in that one's own numbers."""
+    def named(i, text):
+        return Refused(f"Mesh {i + 1} of {len(given)}{f' ({given[i].name})' * bool(given[i].name)}: {text}")
+    ours = {name: value for name, value in parameters.items()
+            if name not in ("carry_texture", "report", "time_limit")}
+    for i, mesh in enumerate(given):
+        try:  # each by itself, as far as its flow
+            _library.run(number, ours, mesh.arrays, [], {}, lambda fraction, what: fraction <= 0.0)
+        except Refused as own:
+            return named(i, own)
+        except RuntimeError:  # ended there
+            pass
+    component = re.match(r"Component with face (\d+)", str(problem))
+    if component:
+        face = int(component[1])
+        for i, mesh in enumerate(given):
+            if face < len(mesh.faces):
+                return named(i, f"Component with face {face}{str(problem)[component.end():]}")
+            face -= len(mesh.faces)
+    return problem
+
+
 def _solve_together(function, meshes, progress, keywords, parameters):
     """One run for several meshes, whose charts share the square."""
     number, kind = _KINDS[function]
@@ -285,10 +309,14 @@ def _solve_together(function, meshes, progress, keywords, parameters):
         if value is not None:
             raise TypeError(f"{name} is for one mesh: of several meshes, each has its own vertices and faces")
     given = [_loading.given_one(mesh, i, len(meshes)) for i, mesh in enumerate(meshes, 1)]
-    if any(mesh.is_split for mesh in given):
+    # Faces that share no vertices, as those of STL, are joined by themselves.
+    if any(mesh.is_split and len(mesh.vertices) < 3 * len(mesh.faces) for mesh in given):
         parameters.setdefault("join_vertices", "Always")
-    outputs, log, messages = run_arrays(
-        number, _loading.together(given, parameters), parameters, progress)
+    whole = _loading.together(given, parameters)
+    try:
+        outputs, log, messages = run_arrays(number, whole, parameters, progress)
+    except Refused as problem:
+        raise _of_its_mesh(number, given, parameters, problem) from None
     for message in messages:
         warnings.warn(message, RicciWarning, stacklevel=3)
     results, vertex, face = [], 0, 0
@@ -343,7 +371,7 @@ _INPUT = """
 mesh : a path; vertices and then faces, or both as a pair; an object that has them, such as one of
     trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates. A list of
     meshes: their charts share one square at one scale, and a list is returned, one for each mesh, whose
-    results, layers and log are those of all together
+    results, layers and log are those of all together. Vertices of different meshes are never joined
 faces : indices of vertices, three of each face, where `mesh` is the vertices
 selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle;
     target_curvature then is 'Cones at selected vertices', unless it is given

@@ -48,9 +48,9 @@ class MeshSet(pymeshlab.MeshSet):
         charts: Union[int, Literal[
             'As the flow has them',
             'Without overlap',
-            'Without overlap, cut for room',
+            'Without overlap, cut for packing',
             'As they are, only packed',
-        ]] = 'Without overlap, cut for room',
+        ]] = 'Without overlap, cut for packing',
         normalize_uv: bool = True,
         holes: Union[int, Literal[
             'Boundaries',

@@ -5,6 +5,7 @@
 #include "../base/graphs.h"
 #include "surface_mesh.h"
 
+#include <array>
 #include <vector>
 
 namespace ricci {
@@ -82,6 +83,15 @@ void cutOneSided(
 /// Leaves a side without the other that it was glued to.
 void unglue(Corner side, CornerArray<Corner>& glued);
 
+/// Divides the sides that no other face shares by index into those to be joined, and the others: these are of parts
+/// (SurfaceMesh) less than nine tenths of whose sides are such, unless \p all are to be joined.
+/// \param alone see FaceGluing
+std::array<std::vector<Corner>, 2> sidesToJoin(
+	const Array<Triangle>& triangles,
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part,
+	bool all);
+
 /// Vertices that are one vertex of the surface.
 struct SplitVertices
 {
@@ -98,11 +108,13 @@ struct SplitVertices
 ///
 /// So solids that touch stay apart, in a soup of faces too, and so do the two sides of a leaf.
 /// \param alone sides that no other face shares by index, see FaceGluing
+/// \param part see SurfaceMesh
 /// \pre no triangle uses a vertex twice; positions are finite
 SplitVertices findSplitVertices(
 	const Array<Point3>& positions,
 	const Array<Triangle>& triangles,
-	const std::vector<Corner>& alone);
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part);
 
 } // namespace ricci
 

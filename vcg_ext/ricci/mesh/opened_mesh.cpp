@@ -35,6 +35,7 @@ void checkElements(const SurfaceMesh& mesh)
 	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
 	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
 	requireLength("map", mesh.map.size(), mesh.triangles.size());
+	requireLength("part", mesh.part.size(), mesh.positions.size());
 	const auto vertices = static_cast<int>(mesh.positions.size());
 	std::size_t damaged = 0, notFinite = 0, huge = 0;
 	for (const Triangle& t : mesh.triangles)
@@ -116,7 +117,7 @@ public:
 		};
 		Array<Point3> normals;
 		if (opensSharp)
-			normals = normalsOf(m_positions.values(), m_triangles.values());
+			normals = normalsOf(m_positions.values(), m_triangles.values(), m_glued);
 		const auto isSharp = [&](Corner side) {
 			const Corner other = m_glued[side];
 			if (!opensSharp || !other.isValid() || isDiagonal(side) || isDiagonal(other))
@@ -242,27 +243,29 @@ private:
 		}
 	}
 
-	/// Joins vertices that are split, or counts what that would join.
-	/// \return whether it has joined any
+	/// Joins split vertices, and counts what others would join. \return whether it has joined any
 	bool joinVertices(JoinSplitVertices join, const FaceGluing& gluing)
 	{
-		SplitVertices split = findSplitVertices(m_positions, m_triangles, gluing.alone);
+		const auto splitAt = [&](const std::vector<Corner>& sides) {
+			return findSplitVertices(m_positions, m_triangles, sides, m_input.part);
+		};
+		const bool all = join == JoinSplitVertices::Always;
+		const auto [wanted, others] = sidesToJoin(m_triangles, gluing.alone, m_input.part, all);
+		if (!others.empty()) {
+			DisjointSets pieces(m_triangles.size());
+			for (const Corner side : gluing.glued.indices())
+				if (gluing.glued[side].isValid())
+					pieces.merge(side.face(), gluing.glued[side].face());
+			for (const auto& [a, b] : splitAt(others).joined)
+				m_opened.piecesApart += pieces.merge(a.face(), b.face());
+		}
+		SplitVertices split = splitAt(wanted);
 		if (split.joined.empty())
 			return false;
-		if (join == JoinSplitVertices::Always ||
-			10 * gluing.alone.size() >= 9 * positionOf(gluing.glued.size())) {
-			m_opened.joinedEdges = static_cast<int>(split.joined.size());
-			m_opened.joined = std::move(split.vertex);
-			takeFaces();
-			return true;
-		}
-		DisjointSets pieces(m_triangles.size());
-		for (const Corner side : gluing.glued.indices())
-			if (gluing.glued[side].isValid())
-				pieces.merge(side.face(), gluing.glued[side].face());
-		for (const auto& [a, b] : split.joined)
-			m_opened.piecesApart += pieces.merge(a.face(), b.face());
-		return false;
+		m_opened.joinedEdges = static_cast<int>(split.joined.size());
+		m_opened.joined = std::move(split.vertex);
+		takeFaces();
+		return true;
 	}
 
 	/// The fans of glued corners.

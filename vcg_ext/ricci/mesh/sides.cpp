@@ -117,13 +117,43 @@ enum class At : char { Between, Crease, Boundary };
 
 } // namespace
 
-Array<Point3>
-normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+Array<Point3> normalsOf(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const CornerArray<Corner>& across)
 {
+	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
 	Array<Point3> normals;
 	for (const Triangle& t : triangles)
-		normals.push_back(normal(
-			positions[positionOf(t[0])], positions[positionOf(t[1])], positions[positionOf(t[2])]));
+		normals.push_back(normal(at(t[0]), at(t[1]), at(t[2])));
+	const auto has = [&](int f) { return dot(normals[f], normals[f]) > 0.0; };
+	const auto isLongest = [&](Corner side) {
+		const std::array<double, 3> l = sideLengths(triangles[positionOf(side.face())], positions);
+		return l[side.index()] == *std::max_element(l.begin(), l.end());
+	};
+	std::vector<Corner> longest,
+		others; // sides of triangles without a normal, next to one that has it
+	const auto reach = [&](Corner side) {
+		const Corner other = across[side];
+		if (other.isValid() && !has(other.face()))
+			(isLongest(other) ? longest : others).push_back(other);
+	};
+	for (const int f : normals.indices())
+		for (const Corner side : cornersOf(f))
+			if (has(f))
+				reach(side);
+	while (!longest.empty() || !others.empty()) {
+		std::vector<Corner>& sides = longest.empty() ? others : longest;
+		const Corner side = sides.back(), from = across[side];
+		sides.pop_back();
+		const int f = side.face();
+		if (has(f))
+			continue;
+		const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
+		normals[f] = (start(side) == start(from) ? -1.0 : 1.0) * normals[from.face()];
+		for (const Corner own : cornersOf(f))
+			reach(own);
+	}
 	return normals;
 }
 
@@ -139,7 +169,7 @@ Creases creases(
 	double angle)
 {
 	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
-	const Array<Point3> normals = normalsOf(positions, triangles);
+	const Array<Point3> normals = normalsOf(positions, triangles, sides.across());
 	Creases result;
 	result.sides.resize(triangles.size(), {0, 0, 0});
 	Array<At> where(static_cast<int>(positions.size()), At::Between);

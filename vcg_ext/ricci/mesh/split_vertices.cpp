@@ -7,22 +7,29 @@
 #include "sides.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
 
 namespace ricci {
 
 namespace {
 
-/// Numbers of places, in their order: vertices with equal coordinates (0 = -0) have one.
-Array<int> placesOf(const Array<Point3>& positions, const std::vector<int>& vertices)
+/// Numbers of places, in their order: vertices of one part with equal coordinates (0 = -0) have one.
+Array<int> placesOf(
+	const Array<Point3>& positions, const std::vector<int>& part, const std::vector<int>& vertices)
 {
+	const auto partOf = [&](int v) { return part.empty() ? 0 : part[positionOf(v)]; };
 	std::vector<int> order = vertices;
 	std::sort(order.begin(), order.end(), [&](int a, int b) {
-		return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
+		if (positions[a] != positions[b])
+			return positions[a] < positions[b];
+		return partOf(a) != partOf(b) ? partOf(a) < partOf(b) : a < b;
 	});
 	Array<int> place(positions.size(), -1);
 	int last = -1, count = -1;
 	for (const int v : order) {
-		count += last < 0 || positions[v] != positions[last];
+		count += last < 0 || positions[v] != positions[last] || partOf(v) != partOf(last);
 		place[v] = count;
 		last = v;
 	}
@@ -63,10 +70,29 @@ void sortRound(const RunsUp& runsUp, std::vector<Page>& pages, std::vector<int>&
 
 } // namespace
 
+std::array<std::vector<Corner>, 2> sidesToJoin(
+	const Array<Triangle>& triangles,
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part,
+	bool all)
+{
+	const auto partOf = [&](int v) { return part.empty() ? 0 : part[positionOf(v)]; };
+	std::map<int, std::int64_t> excess; // [part] tenths of sides over nine tenths
+	for (const Triangle& t : triangles.values())
+		excess[partOf(t[0])] -= 9 * 3;
+	for (const Corner side : alone)
+		excess[partOf(triangles[side])] += 10;
+	std::array<std::vector<Corner>, 2> divided;
+	for (const Corner side : alone)
+		divided[!all && excess[partOf(triangles[side])] < 0].push_back(side);
+	return divided;
+}
+
 SplitVertices findSplitVertices(
 	const Array<Point3>& positions,
 	const Array<Triangle>& triangles,
-	const std::vector<Corner>& alone)
+	const std::vector<Corner>& alone,
+	const std::vector<int>& part)
 {
 	CornerArray<char> isAlone(3 * triangles.size(), 0);
 	std::vector<int> faces, vertices; // of these sides
@@ -80,7 +106,7 @@ SplitVertices findSplitVertices(
 		std::sort(numbers->begin(), numbers->end());
 		numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
 	}
-	const Array<int> place = placesOf(positions, vertices);
+	const Array<int> place = placesOf(positions, part, vertices);
 	std::vector<Triangle> byPlace; // of the faces
 	for (const int f : faces) {
 		const Triangle& t = triangles[f];

@@ -40,6 +40,10 @@ struct SurfaceMesh
 	/// [triangle] Lengths of the sides of a surface that is given by them: positions then only tell how many vertices
 	/// there are. Both sides of an edge have one length. Empty: they are distances of positions.
 	std::vector<std::array<double, 3>> lengths = {};
+
+	/// [vertex] Vertices of different parts, such as several meshes, are not joined, and JoinSplitVertices::Automatic decides
+	/// for each part; may be empty.
+	std::vector<int> part = {};
 };
 
 /// Lengths of the sides of a triangle of the vertices at \p positions in space.

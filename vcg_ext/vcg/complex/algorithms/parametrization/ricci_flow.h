@@ -56,6 +56,9 @@ public:
 	/// vector have one, or none has.
 	typedef std::vector<ricci::MappedFace> TextureMap;
 
+	/// [vertex] ricci::SurfaceMesh::part. All vertices of the mesh's vector have one, or none has.
+	typedef std::vector<int> Parts;
+
 	typedef ricci::Options Params;
 	typedef ricci::HyperbolicOptions HyperbolicParams;
 
@@ -70,11 +73,12 @@ public:
 		const MeshType& m,
 		const Params& par,
 		const SideMarks& seams = SideMarks(),
-		const TextureMap& map = TextureMap())
+		const TextureMap& map = TextureMap(),
+		const Parts& parts = Parts())
 	{
 		return Run(
 			m,
-			{seams, map},
+			{seams, map, parts},
 			par.target == ricci::TargetCurvature::Rectangle ||
 				par.target == ricci::TargetCurvature::SelectedCones,
 			par.target == ricci::TargetCurvature::Prescribed,
@@ -90,11 +94,12 @@ public:
 		const MeshType& m,
 		const HyperbolicParams& par,
 		const SideMarks& seams = SideMarks(),
-		const TextureMap& map = TextureMap())
+		const TextureMap& map = TextureMap(),
+		const Parts& parts = Parts())
 	{
 		return Run(
 			m,
-			{seams, map},
+			{seams, map, parts},
 			par.target == ricci::HyperbolicTarget::SelectedCones,
 			par.target == ricci::HyperbolicTarget::Prescribed,
 			[&](const ricci::SurfaceMesh& mesh, const ricci::VertexInput& input) {
@@ -196,7 +201,7 @@ public:
 	{
 		std::vector<int> faceIndex;
 		const ricci::DefaultFloatingPoint defaultEnvironment;
-		return ricci::mapToSphere(ReadSurface(m, faceIndex, {{}, {}}), par);
+		return ricci::mapToSphere(ReadSurface(m, faceIndex, {{}, {}, {}}), par);
 	}
 
 	/// The texture coordinates of the mesh: of wedges, or else of vertices. Empty where it has none.
@@ -261,11 +266,12 @@ private:
 		return p;
 	}
 
-	/// What a mesh is opened by.
+	/// What a mesh is opened by, and what is not to be joined.
 	struct Openings
 	{
 		const SideMarks& seams;
 		const TextureMap& map;
+		const Parts& parts;
 	};
 
 	/// What \p parametrize gives, with the faces' indices in the mesh.
@@ -418,6 +424,7 @@ private:
 		for (size_t v = 0; v < m.vert.size(); ++v)
 			if (!m.vert[v].IsD()) // a deleted vertex may hold anything
 				mesh.positions[v] = PlaceOf(m, m.vert[v]);
+		mesh.part = openings.parts;
 		mesh.absent = m.vert.size() - size_t(m.vn);
 		size_t damaged = 0;
 		bool hasPolygons = false;
