@@ -95,9 +95,11 @@ class PlyFile(MeshFile):
                         words[1]]
                     known = True
                 elif words[:1] == ['element']:
-                    self._elements.append(_Element(words[1], int(words[2])))
-                    if self._elements[-1].count < 0:
+                    if int(words[2]) < 0 or any(words[1] == e.name for e in self._elements):
                         raise ValueError
+                    self._elements.append(_Element(words[1], int(words[2])))
+                elif words[:1] == ['property'] and words[-1] in self._elements[-1].types:
+                    raise ValueError
                 elif words[:2] == ['property', 'list']:
                     self._elements[-1].types[words[4]] = _TYPES[words[3]], _TYPES[words[2]]
                     if _TYPES[words[2]][0] == 'f':
@@ -486,7 +488,7 @@ class PlyFile(MeshFile):
         row_begin, row_end = next(iter(spans.values()))[0], list(spans.values())[-1][1]
         begin, end = spans.get('texcoord', (row_end, row_end))
         stays, count = ~new.torn, np.diff(self.starts)
-        uv = new.corner_uv[np.repeat(stays, count)]
+        uv = new.corner_uv if stays.all() else new.corner_uv[np.repeat(stays, count)]
         lead = ' ' if text and 'texcoord' not in spans else ''
         edits = [(begin[stays], end[stays], *self._listed(uv, count[stays], kind, lead))]
         number = b''
@@ -496,6 +498,13 @@ class PlyFile(MeshFile):
             kept = int(stays.sum())
             edits.append((begin[stays], end[stays], np.full(kept, len(number)),
                           np.frombuffer(number * kept, np.uint8)))
+        of_faces = np.frombuffer(self._data, np.uint8, face.end - face.begin, face.begin)
+        if face.table is not None and stays.all():  # the same places in every row
+            old, pieces, at = of_faces.reshape(face.count, -1), [], 0
+            for begin, end, _, content in sorted(edits, key=lambda edit: edit[0][0]):
+                pieces += [old[:, at:begin[0] - face.begin], content.reshape(face.count, -1)]
+                at = end[0] - face.begin
+            return np.concatenate([*pieces, old[:, at:]], 1).tobytes()
         rows = []
         for p in np.flatnonzero(new.torn):
             row = {name: self._data[b[p]:e[p]] for name, (b, e) in spans.items()}
@@ -505,7 +514,6 @@ class PlyFile(MeshFile):
                 self._row(row, face, new.vertices[k], new.uv[k], kind) for k in new.triangles(p)))
         edits.append((row_begin[new.torn], row_end[new.torn], np.array([len(r) for r in rows], np.int64),
                       np.frombuffer(b''.join(rows), np.uint8)))
-        of_faces = np.frombuffer(self._data, np.uint8, face.end - face.begin, face.begin)
         return spliced(of_faces, *((b - face.begin, e - face.begin, *what) for b, e, *what in edits))[0]
 
     def _listed(self, uv, count, kind, lead=''):
@@ -517,10 +525,13 @@ class PlyFile(MeshFile):
             lengths = np.array([len(one) for one in lists.split('\n')][:len(count)], np.int64)
             return lengths, np.frombuffer(lists.replace('\n', '').encode(), np.uint8)
         heads = (2 * count).astype(self._order + kind[1])
-        values = np.ascontiguousarray(uv, self._order + kind[0]).view(np.uint8).ravel()
+        values = np.ascontiguousarray(uv, self._order + kind[0])
+        if len(count) and count.min() == count.max():
+            lists = np.concatenate([a.view(np.uint8).reshape(len(count), -1) for a in (heads, values)], 1)
+            return np.full(len(count), lists.shape[1]), lists.ravel()
         sizes = 2 * np.dtype(kind[0]).itemsize * count
         at, of_head = np.cumsum(sizes) - sizes, np.full(len(count), heads.itemsize)
-        lists, _ = spliced(values, (at, at, of_head, heads.view(np.uint8)))
+        lists, _ = spliced(values.view(np.uint8).ravel(), (at, at, of_head, heads.view(np.uint8)))
         return sizes + heads.itemsize, np.frombuffer(lists, np.uint8)
 
     def _row(self, row, face, vertices, uv, kind):
