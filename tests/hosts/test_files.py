@@ -595,12 +595,24 @@ class Gltf(Folder):
         self.assertEqual(np.rint(255 * mesh.material_colours[0]).tolist()[:3], [188, 255, 255])
 
     def test_compression_is_named(self):
-        for name, word in (("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt"),
-                           ("NONE_such", "NONE_such")):
+        """With what to do, whether the file says that it is required or has nothing else."""
+        def refused(out, sentence):
+            with self.assertRaisesRegex(files.FileError, sentence):
+                files.read(self.file("in.glb", out.glb()))
+        for name, word in (("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt")):
+            sentence = rf"in\.glb is compressed with {word} \({name}\).*: export it without compression"
             out = samples.rich()
             out.json["extensionsRequired"] = [name]
-            with self.assertRaisesRegex(files.FileError, word):
-                files.read(self.file("in.glb", out.glb()))
+            refused(out, sentence)
+            out = samples.rich()
+            primitive = out.json["meshes"][0]["primitives"][0]
+            primitive["extensions"] = {name: {"bufferView": 0, "attributes": {"POSITION": 0}}}
+            self.assertEqual(len(files.read(self.file("in.glb", out.glb())).faces), samples.RICH_TRIANGLES)
+            del out.json["accessors"][primitive["attributes"]["POSITION"]]["bufferView"]
+            refused(out, sentence)
+        out = samples.rich()
+        out.json["extensionsRequired"] = ["NONE_such"]
+        refused(out, "needs the glTF extension NONE_such, which is not known")
 
     def test_transform_of_a_texture(self):
         for change, uv in (({"offset": [0.5, 0.25]}, [0.75, 0.75]), ({"scale": [2, 3]}, [0.5, 1.5]),
@@ -703,6 +715,32 @@ class ThreeMf(Folder):
     def test_colours_that_go_are_said(self):
         mesh = files.read(self.file("in.3mf", samples.threemf()))
         self.assertIn("colours", mesh.save(self.folder / "out.3mf", by_corner(mesh))[0])
+
+    def test_mixtures_are_named(self):
+        """Multiproperties and composite materials, of triangles and of whole objects."""
+        for kind, inner in (("multiproperties", '<m:multi pindices="0 0"/><m:multi pindices="0 1"/>'),
+                            ("compositematerials", '<m:composite values="0.5 0.5"/>' * 2)):
+            for where, count in ((b'object id="5"', 12 - 3), (b'triangle v1="0" v2="1" v3="3"', 2)):
+                group = f'<m:{kind} id="9" pids="1 1" matid="1" matindices="0 1">{inner}</m:{kind}><object id="5"'
+                with zipfile.ZipFile(io.BytesIO(samples.threemf())) as old:
+                    parts = {name: old.read(name) for name in old.namelist()}
+                model = parts["3D/3dmodel.model"].replace(b'<object id="5"', group.encode())
+                if where.startswith(b"triangle"):
+                    model = model.replace(where + b' pid="1"', where + b' pid="9"')
+                else:
+                    model = model.replace(where, where + b' pid="9" pindex="1"')
+                parts["3D/3dmodel.model"] = model
+                out = io.BytesIO()
+                with zipfile.ZipFile(out, "w") as package:
+                    for name, content in parts.items():
+                        package.writestr(name, content)
+                mesh = files.read(self.file("in.3mf", out.getvalue()))
+                self.assertEqual(mesh.messages,
+                                 [f"{count} faces with {kind}: their colours and pictures are not read"])
+                self.assertIn("give way", mesh.save(self.folder / "out.3mf", by_corner(mesh))[0])
+                again = files.read(self.folder / "out.3mf")
+                self.assertEqual(again.messages, [])
+                np.testing.assert_allclose(again.uv, by_corner(mesh), atol=1e-8)
 
 
 class Others(Folder):

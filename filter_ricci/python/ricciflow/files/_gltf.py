@@ -235,8 +235,11 @@ class GltfFile(MeshFile):
             for n, primitive in enumerate(mesh['primitives']):
                 if primitive.get('mode', 4) not in _TRIANGLES or 'POSITION' not in primitive['attributes']:
                     continue
-                triangles = self._triangles(primitive)
                 position = primitive['attributes']['POSITION']
+                if 'bufferView' not in self.json['accessors'][position]:
+                    for name in primitive.get('extensions', {}):
+                        self._refuse_compressed(name)
+                triangles = self._triangles(primitive)
                 colour = primitive['attributes'].get('COLOR_0')
                 if (position, colour) not in bases:
                     bases[position, colour] = vertex_count
