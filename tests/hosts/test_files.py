@@ -322,8 +322,9 @@ class Ply(Folder):
             for old, new in (("", "uint float"), ("list uchar int", "uint float"), ("short", "uint float"),
                              ("list uchar double", "uint double"), ("list int float", "int float")):
                 with self.subTest(form=form, old=old):
-                    head = (f"ply\nformat {form} 1.0\nelement vertex {n}\nproperty double x\nproperty double y\n"
-                            "property double z\nelement face 2\nproperty list int int vertex_indices\n" +
+                    head = (f"ply\nformat {form} 1.0\nelement vertex {n}\nproperty double x\n"
+                            "property double y\nproperty double z\nelement face 2\n"
+                            "property list int int vertex_indices\n" +
                             (f"property {old} texcoord\n" if old else "") + "end_header\n").encode()
                     empty = bytes({"": 0, "short": 2, "list int float": 4}.get(old, 1))
                     body = ring.tobytes() + np.array([n, *range(n)], "<i4").tobytes() + empty + np.array(
@@ -335,9 +336,9 @@ class Ply(Folder):
                     mesh = files.read(self.file("in.ply", head + body))
                     uv = by_corner(mesh)
                     mesh.save(self.folder / "out.ply", uv)
-                    self.assertEqual([l for l in files.read(self.folder / "out.ply")._header if "texcoord" in l],
-                                     [f"property list {new} texcoord"])
                     again = files.read(self.folder / "out.ply")
+                    self.assertEqual([l for l in again._header if "texcoord" in l],
+                                     [f"property list {new} texcoord"])
                     self.assertEqual(again.starts.tolist(), [0, n, n + 3])
                     np.testing.assert_allclose(again.uv, uv, atol=1e-9)
 
@@ -721,7 +722,8 @@ class ThreeMf(Folder):
         for kind, inner in (("multiproperties", '<m:multi pindices="0 0"/><m:multi pindices="0 1"/>'),
                             ("compositematerials", '<m:composite values="0.5 0.5"/>' * 2)):
             for where, count in ((b'object id="5"', 12 - 3), (b'triangle v1="0" v2="1" v3="3"', 2)):
-                group = f'<m:{kind} id="9" pids="1 1" matid="1" matindices="0 1">{inner}</m:{kind}><object id="5"'
+                group = (f'<m:{kind} id="9" pids="1 1" matid="1" matindices="0 1">{inner}</m:{kind}>'
+                         '<object id="5"')
                 with zipfile.ZipFile(io.BytesIO(samples.threemf())) as old:
                     parts = {name: old.read(name) for name in old.namelist()}
                 model = parts["3D/3dmodel.model"].replace(b'<object id="5"', group.encode())
@@ -1138,9 +1140,9 @@ class OtherReaders(Folder):
             import pymeshlab
         except ImportError:
             self.skipTest("SKIPPED: PyMeshLab is not installed")
-        text = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                b"element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
-                b"4 0 1 2 3\n")
+        text = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
         mesh, host = files.read(self.file("in.ply", text)), pymeshlab.MeshSet()
         said, = mesh.save(self.folder / "out.ply", by_vertex(mesh))
         self.assertIn("1 face with more than 3 corners: MeshLab opens no PLY of such faces", said)

@@ -44,7 +44,7 @@ def _guarded(function):
 
 
 class _Primitive:
-    """Triangles of one primitive: which of `faces`, with vertices as its accessors count them, and as shown."""
+    """Triangles of one primitive: which of `faces`, as its accessors count vertices, and as shown."""
 
     def __init__(self, mesh, number, faces, triangles, turned):
         self.mesh, self.number, self.faces, self.triangles, self.turned = (
@@ -241,8 +241,9 @@ class GltfFile(MeshFile):
                         self._refuse_compressed(name)
                 triangles = self._triangles(primitive)
                 colour = primitive['attributes'].get('COLOR_0')
-                if (position, colour) not in bases:
-                    bases[position, colour] = vertex_count
+                key = position, colour, None if colour is None else primitive.get('material')
+                if key not in bases:  # colours of vertices are multiplied by those of materials
+                    bases[key] = vertex_count
                     xyz = self._values(position)
                     if xyz.shape[1:] != (3,):
                         raise FileError(f'{self.path.name} is damaged: positions that are not VEC3')
@@ -252,7 +253,7 @@ class GltfFile(MeshFile):
                 stop = face_count + len(triangles)
                 primitive = _Primitive(m, n, slice(face_count, stop), triangles, turned)
                 self._primitives.append(primitive)
-                base = bases[position, colour]
+                base = bases[key]
                 faces.append(primitive.shown + np.int32(base) if base else primitive.shown)
                 face_count = stop
             if face_count > first:
@@ -284,7 +285,9 @@ class GltfFile(MeshFile):
     @cached_property
     @_guarded
     def uv_picture(self):
-        return None if self.uv is None else self._of_faces([picture for _, picture, _ in self._looks], np.int32)
+        if self.uv is None:
+            return None
+        return self._of_faces([picture for _, picture, _ in self._looks], np.int32)
 
     @cached_property
     def material_colours(self):

@@ -424,8 +424,8 @@ class PlyFile(MeshFile):
         write_file(path, b''.join([header, *body]))
         messages, large = [], int(((corners > 3) & ~new.torn).sum())
         if large:
-            messages.append(f'{counted(large, "face")} with more than 3 corners: MeshLab opens no PLY of such '
-                            'faces with texture coordinates; save it as OBJ for MeshLab')
+            messages.append(f'{counted(large, "face")} with more than 3 corners: MeshLab opens no PLY of '
+                            'such faces with texture coordinates; save it as OBJ for MeshLab')
         files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
         return messages + copy_beside(files, self.path.parent, path.parent)
 

@@ -172,6 +172,12 @@ class MeshFile:
             result *= factor
         return linear_to_srgb(result) if self.linear else result
 
+    def by_vertex(self, colours):
+        """(V, 4) for colours (F, 3, 4) at corners, 1 where no face is; None if those of a vertex differ."""
+        of_vertex = np.ones((len(self.vertices), 4), np.float32)
+        of_vertex[self.faces] = colours
+        return of_vertex if np.array_equal(of_vertex[self.faces], colours) else None
+
     def corner_normals(self):
         """(F, 3, 3) float32, or None where the file has no normals."""
         return None
@@ -300,10 +306,7 @@ def placed(mesh, uv, refined, shows_picture):
         plain.diagonals = np.broadcast_to(np.False_, plain.faces.shape)
         plain.colours, plain.normals = (np.concatenate(a) if a else None for a in lists[3:])
     if plain.colours is not None:
-        of_vertex = np.ones((len(plain.vertices), 4), np.float32)
-        of_vertex[plain.faces] = plain.colours
-        if np.array_equal(of_vertex[plain.faces], plain.colours):
-            plain.vertex_colours = of_vertex
+        plain.vertex_colours = plain.by_vertex(plain.colours)
     return plain, uv, messages
 
 
