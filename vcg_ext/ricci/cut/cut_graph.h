@@ -117,8 +117,8 @@ EdgeArray<double> seamCost(
 	const VertexArray<Point3>& positions,
 	double hiding);
 
-/// Raises the cost of seams along diagonals of polygons by a hundredth, so that of paths of about the
-/// same cost the one along sides is taken.
+/// Raises the cost of seams along diagonals of polygons a thousandfold, so that only polygons are divided
+/// that no other path goes round.
 /// \param isDiagonal see FlowDomain; may be empty
 void avoidDiagonals(const EdgeArray<char>& isDiagonal, EdgeArray<double>& cost);
 
