@@ -382,8 +382,10 @@ class Ply(Folder):
             b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
             b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
             b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n")
-        np.testing.assert_allclose(
-            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
+        mesh = files.read(self.file("in.ply", text))
+        np.testing.assert_allclose(mesh.uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
+        self.assertIn("s and t of the vertices stay", mesh.save(self.folder / "out.ply", by_vertex(mesh))[0])
+        np.testing.assert_allclose(files.read(self.folder / "out.ply").uv, by_vertex(mesh), atol=1e-8)
 
     def test_it_is_cut_off(self):
         for order in (None, "<", ">"):

@@ -376,10 +376,14 @@ class PlyFile(MeshFile):
             value = np.repeat(full, counts)
             uv[np.repeat(full, own)] = np.ravel(values)[value].reshape(-1, 2)
             return uv[self.corners]
-        for pair in _COORDINATES:
-            if all(p in vertex.types and vertex.types[p][1] is None for p in pair):
-                return np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
-        return None
+        pair = self._coordinates_of_vertices()
+        return pair and np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
+
+    def _coordinates_of_vertices(self):
+        """The names of the two properties, or None."""
+        types = self._by_name['vertex'].types
+        return next((pair for pair in _COORDINATES if all(p in types and types[p][1] is None for p in pair)),
+                    None)
 
     @cached_property
     def uv_picture(self):
@@ -426,6 +430,9 @@ class PlyFile(MeshFile):
         if large:
             messages.append(f'{counted(large, "face")} with more than 3 corners: MeshLab opens no PLY of '
                             'such faces with texture coordinates; save it as OBJ for MeshLab')
+        if self._coordinates_of_vertices():
+            messages.append(f'{" and ".join(self._coordinates_of_vertices())} of the vertices stay: programs '
+                            'that read these, and not texcoord, show the old map')
         files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
         return messages + copy_beside(files, self.path.parent, path.parent)
 
