@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <complex>
 #include <iomanip>
+#include <ios>
 #include <limits>
 #include <locale>
 #include <optional>
@@ -199,16 +200,14 @@ std::string toSentence(const Results& results, const std::string& choice)
 
 std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par)
 {
-	const auto is = [&](const char* id, auto value) {
-		return valueOf<int>(par, id) == static_cast<int>(value);
-	};
+	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
 	const double qc = resultOf<double>(results, "qc_area_mean");
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(
 			"This map is probably not usable: angles are distorted by " + ricci::numberText(qc, 3) +
 			" on average. " +
-			(!is("method", ricci::Method::IntrinsicFlips)
+			(!is("method", static_cast<int>(ricci::Method::IntrinsicFlips))
 				 ? "The method 'Intrinsic flips' avoids this."
 				 : "The output 'Common refinement' avoids this, and so does remeshing that removes "
 				   "sliver triangles ('Remeshing: Isotropic Explicit Remeshing')."));
@@ -234,8 +233,9 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	const double areas = resultOf<double>(results, "area_distortion_mean");
 	const double occupancy = resultOf<double>(results, "occupancy");
 	const int overlapping = resultOf<int>(results, "overlapping_faces");
-	if (overlapping > 0 && (is("target_curvature", ricci::TargetCurvature::Disk) ||
-							is("target_curvature", ricci::TargetCurvature::Rectangle)))
+	if (overlapping > 0 &&
+		(is("target_curvature", static_cast<int>(ricci::TargetCurvature::Disk)) ||
+		 is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle))))
 		lines.push_back(
 			"This map is probably not usable: " + std::to_string(overlapping) +
 			" faces overlap. 'Disk' and 'Rectangle' give one chart, which is never cut: "
@@ -251,7 +251,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 		lines.push_back(
 			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
-			(isAutomatic && is("charts", ricci::Charts::CutForPacking)
+			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForPacking))
 				 ? "Chosen seams ({seams}) divide it into charts that pack better."
 				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' divides "
 				   "it into charts that pack better."));
@@ -263,9 +263,7 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 	const auto isSet = [&](const char* id) {
 		return findParameter(par, id)->value != findParameter(filterParameters(filter), id)->value;
 	};
-	const auto is = [&](const char* id, auto value) {
-		return valueOf<int>(par, id) == static_cast<int>(value);
-	};
+	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
 	const int loops = resultOf<int>(results, "boundary_loops");
 	std::vector<std::string> lines;
 	const auto tell = [&](const char* id, bool hasNoEffect, const std::string& why) {
@@ -277,8 +275,9 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		tell("texture_size", !isPadded, "{carry_texture} is empty.");
 		tell("texture_size", isPadded && is("texture_size", 0), "{padding} is of 2048 pixels.");
 	}
-	const bool areGiven = filter == Euclidean && is("charts", ricci::Charts::AsGiven);
-	const bool cutsSharp = !areGiven && is("seams", Seams::Sharp);
+	const bool areGiven =
+		filter == Euclidean && is("charts", static_cast<int>(ricci::Charts::AsGiven));
+	const bool cutsSharp = !areGiven && is("seams", static_cast<int>(Seams::Sharp));
 	tell("sharp_angle", !cutsSharp, "only the seams 'Sharp edges' read it.");
 	tell(
 		"seams",
@@ -286,13 +285,13 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		"no edge is sharper than {sharp_angle}.");
 	tell(
 		"finish",
-		!is("method", ricci::Method::IntrinsicFlips),
+		!is("method", static_cast<int>(ricci::Method::IntrinsicFlips)),
 		"it needs the method 'Intrinsic flips'.");
 	tell("free_boundary", !areGiven && loops == 0, "the surface is closed.");
 	if (filter == Hyperbolic) {
 		tell(
 			"cone_angle",
-			!is("target_curvature", ricci::HyperbolicTarget::SelectedCones),
+			!is("target_curvature", static_cast<int>(ricci::HyperbolicTarget::SelectedCones)),
 			"only 'Cones at selected vertices' reads it.");
 		return lines;
 	}
@@ -303,11 +302,12 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		const std::string why = "the charts stay as they are.";
 		for (const Parameter& p : par)
 			tell(p.name.c_str(), ofFlow.find(" " + p.name + " ") != std::string::npos, why);
-		tell("seams", !is("seams", Seams::Texture), why);
+		tell("seams", !is("seams", static_cast<int>(Seams::Texture)), why);
 		return lines;
 	}
-	const bool placesCones = is("target_curvature", ricci::TargetCurvature::Automatic) ||
-							 is("target_curvature", ricci::TargetCurvature::PlacedCones);
+	const bool placesCones =
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Automatic)) ||
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::PlacedCones));
 	for (const char* id : {"cone_count", "cone_distortion", "cone_rounding"})
 		tell(id, !placesCones, "only 'Automatic' and 'Placed cones' place cones.");
 	tell(
@@ -316,7 +316,7 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		"{cone_count} says how many cones are placed.");
 	tell(
 		"chart_rotation",
-		is("target_curvature", ricci::TargetCurvature::Rectangle),
+		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle)),
 		"a rectangle stays upright.");
 	tell("holes", loops < 2, "there is no hole besides the outer boundary.");
 	return lines;
