@@ -129,6 +129,19 @@ class Faces(Runs):
             np.testing.assert_array_equal(written.faces, source.faces)
             self.assertFalse(np.isnan(written.uv).any())
 
+    def test_quads_of_a_closed_surface(self):
+        """Seams go round them."""
+        n, m = 48, 24
+        a, b = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
+        wide = 2 + np.cos(b) * (1 + 0.3 * np.sin(3 * a))
+        points = np.stack([wide * np.cos(a), wide * np.sin(a), np.sin(b)], -1).reshape(-1, 3)
+        quads = [(i * m + j, (i + 1) % n * m + j, (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m)
+                 for i in range(n) for j in range(m)]
+        flatten(self.file("in.obj", obj(points, quads))).save(self.folder / "out.obj")
+        corners = np.diff(files.read(self.folder / "out.obj").starts)
+        self.assertGreaterEqual((corners == 4).sum(), 0.998 * len(quads))
+        self.assertEqual((corners - 2).sum(), 2 * len(quads))
+
     def test_split_vertices(self):
         """A flat-shaded GLB, whose faces have vertices of their own, gets the charts of the shared mesh."""
         vertices, faces = arrays(meshes.torus())
