@@ -8,8 +8,9 @@
 #     bash tests/deep.sh PART...              # these parts, without a limit
 #     bash tests/deep.sh --all [PART...]      # more programs, and clang's path-sensitive checks
 #
-#     wheels          the wheel for Linux by zig, in an empty environment and on the oldest Debian; with
-#                     --all the wheels for six platforms, run by Wine, qemu and musl where these are installed
+#     wheels          the wheel for Linux by zig, in an empty environment and on the oldest Debian, and the
+#                     source distribution, compiled by pip; with --all the wheels for six platforms, run by
+#                     Wine, qemu and musl where these are installed
 #     blender         the add-on in bpy, Blender without a window
 #     windows         the core built by mingw-w64, run by Wine
 #     clang           clang, libc++ and char unsigned, as on ARM
@@ -35,7 +36,7 @@ jobs=${JOBS:-$(nproc)}
 googletest=/usr/src/googletest
 parts=(blender windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers wheels)
 # Seconds on two idle cores, rounded up.
-declare -A share=([wheels]=300 [blender]=60 [windows]=300 [clang]=240 [long-double]=240
+declare -A share=([wheels]=480 [blender]=60 [windows]=300 [clang]=240 [long-double]=240
 	[extra-plugins]=180 [threads]=60 [valgrind]=100 [fuzzing]=210 [clang-tidy]=420 [sanitizers]=750)
 not_run=77
 
@@ -151,9 +152,9 @@ python_with() {
 }
 
 part_wheels() {
-	local code=0 platforms=(manylinux_2_17_x86_64)
-	[ -z "$all" ] || platforms=(manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64
-		macosx_11_0_arm64 macosx_10_15_x86_64)
+	local code=0 platforms=(sdist manylinux_2_17_x86_64)
+	[ -z "$all" ] || platforms+=(manylinux_2_17_aarch64 musllinux_1_2_x86_64 win_amd64 macosx_11_0_arm64
+		macosx_10_15_x86_64)
 	python_with wheels.venv lief numpy || missing "wheels: pip cannot install lief, which reads libraries"
 	[ -e "$build/library/libricciflow.so" ] || missing "wheels: the library to compare with is not built"
 	JOBS=$jobs bash "$root/filter_ricci/wheels.sh" "${platforms[@]}" || code=$?

@@ -248,6 +248,13 @@ void removeColours(MeshModel& model)
 	model.clearDataMask(MeshModel::MM_VERTCOLOR);
 }
 
+/// What the host shows a new layer by.
+void finishLayer(CMeshO& layer)
+{
+	vcg::tri::UpdateBounding<CMeshO>::Box(layer);
+	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(layer);
+}
+
 /// Shows a layer that lies in the plane of the charts beside the mesh and as large, by its matrix: its
 /// coordinates stay those of the charts.
 void placeBeside(const MeshModel& model, const Flow::Result& result, MeshModel& layer)
@@ -283,8 +290,7 @@ void addFlatLayer(
 	MeshModel& flat = layers.add(name + " " + host::label(model));
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
 	Layers::BuildFlatMesh(result, flat.cm);
-	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
-	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
+	finishLayer(flat.cm);
 	if (texture.isWanted())
 		texture.assignTo(flat, {});
 	else
@@ -301,8 +307,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 	MeshModel& cover = layers.add("Universal cover " + host::label(model));
 	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
 	Layers::BuildUniversalCover(result, rings, kMaxCoverFaces, cover.cm);
-	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
-	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(cover.cm);
+	finishLayer(cover.cm);
 	placeBeside(model, result, cover);
 }
 
@@ -335,8 +340,7 @@ void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap&
 {
 	MeshModel& sphere = layers.add("Sphere of " + host::label(model));
 	Layers::BuildSphereMesh(model.cm, map, sphere.cm);
-	vcg::tri::UpdateBounding<CMeshO>::Box(sphere.cm);
-	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
+	finishLayer(sphere.cm);
 }
 
 /// The host draws nothing of what the filter writes until it is told to.

@@ -24,6 +24,8 @@ namespace {
 
 using Flow = vcg::tri::RicciFlow<CMeshO>;
 
+constexpr const char* kWhat = "The texture";
+
 /// Gutters take no more of the side of the square than this for one margin.
 constexpr double kMaxMargin = 0.05;
 
@@ -55,11 +57,7 @@ bool mayOverwrite(const std::filesystem::path& path, const std::filesystem::path
 	std::error_code isMissing;
 	if (std::filesystem::equivalent(path, old, isMissing)) // links lead to one file
 		return true;
-	const std::string a = path.filename().u8string(), b = old.filename().u8string();
-	const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
-	return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) {
-		return small(x) == small(y);
-	});
+	return lower(path.filename().u8string()) == lower(old.filename().u8string());
 }
 
 /// Barycentric coordinates of a point in a face of the mesh.
@@ -105,9 +103,7 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 	if (m_size == 0)
 		fitSize();
 	OutputFile file(path);
-	const std::string reason = file.whyNotWritable();
-	if (!reason.empty())
-		refuse(shown + " (" + reason + "): choose another place for it.");
+	file.requireWritable(kWhat);
 	requireMemory();
 	m_file = std::move(file);
 }
@@ -346,26 +342,18 @@ void CarriedTexture::write()
 	double bytes = 0.0;
 	const double expected =
 		0.25 * (m_hasWords ? 8.0 : 4.0) * static_cast<double>(m_size) * m_size; // roughly
-	require(m_result.writePng([&](const char* data, std::size_t size) {
+	const bool isDone = m_result.writePng([&](const char* data, std::size_t size) {
 		bytes += static_cast<double>(size);
 		ricci::advance(bytes / (bytes + expected), "Writing the texture");
 		return m_file.write(data, size);
-	}));
+	});
+	m_file.require(isDone, kWhat);
 }
 
 void CarriedTexture::publish()
 {
 	if (isWanted())
-		require(m_file.publish());
-}
-
-void CarriedTexture::require(bool written) const
-{
-	if (!written)
-		refuse(
-			"The texture " + m_file.name() + " could not be written (" +
-			(m_file.reason().empty() ? "is the disk full?" : m_file.reason()) +
-			"): choose another place for it. The mesh is unchanged.");
+		m_file.require(m_file.publish(), kWhat);
 }
 
 void CarriedTexture::assignTo(MeshModel& model, const std::vector<int>& origin) const

@@ -65,7 +65,6 @@ private:
 	template<class Sample>
 	void drawSamples();
 	void describe(Results& results) const;
-	void require(bool written) const;
 
 	OutputFile m_file;
 	std::string m_name;  ///< that the mesh gets

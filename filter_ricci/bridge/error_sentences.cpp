@@ -37,6 +37,7 @@ const char* remedy(const ricci::InvalidMesh& e)
 	case Error::ArrayLength:
 	case Error::NoTriangle:
 	case Error::UnequalSides:
+	case Error::IncoherentEdge:
 		return ": report the mesh.";
 	case Error::ScalesApart:
 		return ": delete it first.";
@@ -54,8 +55,6 @@ const char* remedy(const ricci::InvalidMesh& e)
 		return ": run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.";
 	case Error::FacesWithoutArea:
 		return ": run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.";
-	case Error::IncoherentEdge:
-		return ": report the mesh.";
 	case Error::NotPuncturable:
 		return ". Remesh it, or separate its sheets.";
 	case Error::BeyondFloats:

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output_file.h"
 
+#include "error_sentences.h"
+#include "parameters.h"
+
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -39,10 +42,7 @@ std::string endingOf(const fs::path& path)
 {
 	const std::string name = path.filename().u8string();
 	const std::size_t point = name.rfind('.');
-	std::string ending = point == std::string::npos ? std::string() : name.substr(point + 1);
-	for (char& c : ending)
-		c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-	return ending;
+	return point == std::string::npos ? std::string() : lower(name.substr(point + 1));
 }
 
 bool OutputFile::Open::close()
@@ -68,6 +68,24 @@ OutputFile::OutputFile(const fs::path& path) : m_path(path)
 		if (!target.empty())
 			m_path = target;
 	}
+}
+
+void OutputFile::requireWritable(const char* what)
+{
+	const std::string reason = whyNotWritable();
+	if (!reason.empty())
+		throw Refusal(
+			what + (" " + name()) + " cannot be written (" + reason +
+			"): choose another place for it.");
+}
+
+void OutputFile::require(bool isDone, const char* what) const
+{
+	if (!isDone)
+		throw Refusal(
+			what + (" " + name()) + " could not be written (" +
+			(m_reason.empty() ? "is the disk full?" : m_reason) +
+			"): choose another place for it. The mesh is unchanged.");
 }
 
 std::string OutputFile::whyNotWritable()

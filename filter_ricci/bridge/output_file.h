@@ -32,8 +32,10 @@ public:
 	/// Its place, in UTF-8.
 	std::string name() const { return m_path.u8string(); }
 
-	/// The reason why it cannot be written; empty if it can. Files are as they were.
-	std::string whyNotWritable();
+	/// Files are as they were.
+	/// \param what it is, such as "The report"
+	/// \throw Refusal if it cannot be written
+	void requireWritable(const char* what);
 
 	/// Appends bytes to the file beside its place. \return false if that fails
 	bool write(const char* data, std::size_t size);
@@ -41,8 +43,9 @@ public:
 	/// Moves the file to its place, if it was written. \return false if that fails
 	bool publish();
 
-	/// Why write() or publish() has failed.
-	const std::string& reason() const { return m_reason; }
+	/// What is said where write() or publish() has failed.
+	/// \throw Refusal unless \p isDone
+	void require(bool isDone, const char* what) const;
 
 private:
 	/// Opened, and removed again unless it has been moved.
@@ -54,6 +57,7 @@ private:
 		~Open();
 	};
 
+	std::string whyNotWritable();
 	bool open();
 	bool fail();
 

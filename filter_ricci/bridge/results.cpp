@@ -26,34 +26,17 @@ constexpr double kDoubtfulAngles = 2.0, kDoubtfulAreas = 4.0, kDoubtfulOccupancy
 /// Of texture_scale.
 constexpr double kCoarser = 0.9;
 
-template<class Number>
-void print(std::ostream& line, Number value)
-{
-	line << value;
-}
-
-/// "[x,y,...]", without blanks so that a line of pairs stays easy to take apart. With all digits: they
-/// are to compute with.
-void print(std::ostream& line, const std::vector<double>& values)
-{
-	const std::streamsize before = line.precision(std::numeric_limits<double>::max_digits10);
-	for (std::size_t i = 0; i < values.size(); ++i)
-		line << (i == 0 ? '[' : ',') << values[i];
-	line << (values.empty() ? "[]" : "]");
-	line.precision(before);
-}
-
+/// Rows without blanks, so that a line of pairs stays easy to take apart.
 std::string keyValueLine(Results::const_iterator begin, Results::const_iterator end)
 {
-	std::ostringstream line;
-	line.imbue(std::locale::classic());
-	line.precision(10);
-	line << std::boolalpha;
+	std::string line;
 	for (auto result = begin; result != end; ++result) {
-		line << (result == begin ? "" : " ") << result->key << "=";
-		std::visit([&line](const auto& value) { print(line, value); }, result->value);
+		const std::string text = valueText(result->value, ",");
+		const bool isRow = std::holds_alternative<std::vector<double>>(result->value);
+		line +=
+			(result == begin ? "" : " ") + result->key + "=" + (isRow ? "[" + text + "]" : text);
 	}
-	return line.str();
+	return line;
 }
 
 template<class T>
@@ -372,6 +355,26 @@ std::string colourRamp(const Results& results)
 	return "blue (1: no angle distortion) through cyan, green and yellow to red (" +
 		   ricci::numberText(colourRampTop(results), 3) +
 		   " or more: the 99th percentile of the faces)";
+}
+
+std::string valueText(const Value& value, const char* separator)
+{
+	std::ostringstream text;
+	text.imbue(std::locale::classic());
+	text.precision(10);
+	if (const bool* const is = std::get_if<bool>(&value))
+		text << (*is ? "true" : "false");
+	else if (const int* const whole = std::get_if<int>(&value))
+		text << *whole;
+	else if (const double* const number = std::get_if<double>(&value))
+		text << *number;
+	else {
+		text.precision(std::numeric_limits<double>::max_digits10);
+		const auto& row = std::get<std::vector<double>>(value);
+		for (std::size_t i = 0; i < row.size(); ++i)
+			text << (i == 0 ? "" : separator) << row[i];
+	}
+	return text.str();
 }
 
 std::vector<std::string> toLogLines(const Results& results)

@@ -55,6 +55,9 @@ double colourRampTop(const Results& results);
 /// The colours of that ramp and the distortions at its ends, as part of a sentence.
 std::string colourRamp(const Results& results);
 
+/// In no locale; the numbers of a row with all digits, because they are to compute with, and the separator between.
+std::string valueText(const Value& value, const char* separator);
+
 /// The same pairs as "key=value key=value ...", for hosts that show only the log: one line with
 /// what the flow reached, one with what the surface is.
 std::vector<std::string> toLogLines(const Results& results);

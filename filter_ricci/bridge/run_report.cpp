@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ios>
-#include <limits>
 #include <locale>
 #include <sstream>
 #include <utility>
@@ -31,27 +30,6 @@ std::string number(double x, int precision = 6)
 {
 	std::ostringstream out = plainStream(precision);
 	out << x;
-	return out.str();
-}
-
-template<class Number>
-void print(std::ostream& out, Number value)
-{
-	out << value;
-}
-
-/// With all digits: they are to compute with.
-void print(std::ostream& out, const std::vector<double>& values)
-{
-	out.precision(std::numeric_limits<double>::max_digits10);
-	for (std::size_t i = 0; i < values.size(); ++i)
-		out << (i == 0 ? "" : " ") << values[i];
-}
-
-std::string text(const Value& value)
-{
-	std::ostringstream out = plainStream(10);
-	std::visit([&out](const auto& x) { print(out, x); }, value);
 	return out.str();
 }
 
@@ -269,17 +247,11 @@ void addHistogram(std::ostream& csv, const char* start, const Histogram& h)
 	csv << start << h.high << "," << h.above << "\n";
 }
 
-void require(bool written, const OutputFile& file)
-{
-	if (!written)
-		throw Refusal(
-			"The report " + file.name() + " could not be written (" + file.reason() +
-			"): choose another place for it. The mesh is unchanged.");
-}
+constexpr const char* kWhat = "The report";
 
 void fill(OutputFile& file, const std::string& content)
 {
-	require(file.write(content.data(), content.size()), file);
+	file.require(file.write(content.data(), content.size()), kWhat);
 }
 
 } // namespace
@@ -327,7 +299,7 @@ std::string toHtml(const RunReport& report)
 		 << areas.below + areas.above << ".</p>\n"
 		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value, label] : report.results)
-		page << tableRow({key, label, text(value)});
+		page << tableRow({key, label, valueText(value, " ")});
 	page << "</table>\n</section>\n<div>\n<section>\n"
 		 << "<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(data)
@@ -349,7 +321,7 @@ std::string toCsv(const RunReport& report)
 	for (const ReportLine& line : report.settings)
 		csv << "setting,," << line.key << "," << csvField(line.value) << "\n";
 	for (const Result& result : report.results)
-		csv << "result,," << result.key << "," << csvField(text(result.value)) << "\n";
+		csv << "result,," << result.key << "," << csvField(valueText(result.value, " ")) << "\n";
 	for (const ricci::FlowState& state : report.map.report.flowStates)
 		csv << "newton," << state.component << "," << state.step << "," << state.residual << "\n";
 	addHistogram(csv, "qc_histogram,vertices,", distortionHistogram(report.map.report.qcValues));
@@ -372,13 +344,9 @@ ReportFiles::ReportFiles(const std::string& wanted, const std::string& folder)
 		m_page = OutputFile(path);
 	m_data =
 		OutputFile(ending == "csv" ? path : std::filesystem::path(path).replace_extension("csv"));
-	for (OutputFile* file : {&m_page, &m_data}) {
-		const std::string reason = file->isWanted() ? file->whyNotWritable() : "";
-		if (!reason.empty())
-			throw Refusal(
-				"The report " + file->name() + " cannot be written (" + reason +
-				"): choose another place for it.");
-	}
+	for (OutputFile* file : {&m_page, &m_data})
+		if (file->isWanted())
+			file->requireWritable(kWhat);
 }
 
 void ReportFiles::write(const RunReport& report)
@@ -394,7 +362,7 @@ std::vector<std::string> ReportFiles::publish()
 	std::vector<std::string> written;
 	for (OutputFile* file : {&m_page, &m_data})
 		if (file->isWanted()) {
-			require(file->publish(), *file);
+			file->require(file->publish(), kWhat);
 			written.push_back(file->name());
 		}
 	return written;

@@ -10,9 +10,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <locale>
 #include <new>
-#include <sstream>
 #include <utility>
 
 namespace filter_ricci {
@@ -222,10 +220,12 @@ public:
 				before + "quality", {m.vert.size()}, [&](std::size_t i) { return m.vert[i].cQ(); });
 	}
 
-	void colours(const std::string& name, const CMeshO& m)
+	/// Of vertices or faces.
+	template<class Elements>
+	void colours(const std::string& name, const Elements& elements)
 	{
-		add<unsigned char>(name, RICCI_UINT8, {m.vert.size(), 4}, [&](std::size_t i) {
-			return m.vert[i / 4].cC()[static_cast<int>(i % 4)];
+		add<unsigned char>(name, RICCI_UINT8, {elements.size(), 4}, [&](std::size_t i) {
+			return elements[i / 4].cC()[static_cast<int>(i % 4)];
 		});
 	}
 
@@ -235,7 +235,7 @@ public:
 		kind = (kind == "universal" ? "cover" : kind == "canonical" ? "polygon" : kind) + ".";
 		mesh(kind, layer);
 		if (layer.hasDataMask(MeshModel::MM_VERTCOLOR))
-			colours(kind + "colors", layer.cm);
+			colours(kind + "colors", layer.cm.vert);
 		indices(kind + "edges", {layer.cm.edge.size(), 2}, [&](std::size_t i) {
 			return vcg::tri::Index(layer.cm, layer.cm.edge[i / 2].cV(static_cast<int>(i % 2)));
 		});
@@ -515,11 +515,9 @@ void LibraryRun::execute()
 	outputs.attribute("log_radius", "ricci_u", m);
 	outputs.attribute("target_curvature", "ricci_target_curvature", m);
 	if (model.hasDataMask(MeshModel::MM_VERTCOLOR))
-		outputs.colours("vertex_colors", m);
+		outputs.colours("vertex_colors", m.vert);
 	if (model.hasDataMask(MeshModel::MM_FACECOLOR))
-		outputs.add<unsigned char>("face_colors", RICCI_UINT8, {faces, 4}, [&](std::size_t i) {
-			return m.face[i / 4].cC()[static_cast<int>(i % 4)];
-		});
+		outputs.colours("face_colors", m.face);
 	if (!valueOf<std::string>(m_parameters, "carry_texture").empty())
 		outputs.picture(model.pictures.front());
 	for (const Result& result : outcome.results)

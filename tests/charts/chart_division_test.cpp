@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -82,6 +83,50 @@ TEST(ChartDivision, CutsWhereItIsShortest)
 		static_cast<double>(triangles[0].size()) / static_cast<double>(triangles[1].size()),
 		1.0,
 		0.05);
+}
+
+/// Pairs of triangles, each a quadrilateral, that are not side by side in the map.
+int dividedCells(const Parametrization& map)
+{
+	int count = 0;
+	for (int f = 0; f < map.mesh.size(); f += 2) {
+		bool isWhole = true;
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t l = 0; l < 3; ++l)
+				isWhole = isWhole && (map.mesh.vertices[f][k] != map.mesh.vertices[f + 1][l] ||
+									  map.mesh.points[f][k] == map.mesh.points[f + 1][l]);
+		count += isWhole ? 0 : 1;
+	}
+	return count;
+}
+
+/// A ring of sheared quadrilaterals, whose diagonals of one direction are the shortest way across.
+TEST(ChartDivision, KeepsPolygonsWhole)
+{
+	const int around = 60, across = 4;
+	int divided = 0;
+	for (const double shear : {-1.0, 1.0}) {
+		SurfaceMesh mesh = grid(across, around, Ends::Open, Ends::Open, [=](int i, int j) {
+			const double r = 1.0 + static_cast<double>(i) / across;
+			const double a = 2.5 * kPi * (j + shear * i) / around;
+			return Point3{r * std::cos(a), r * std::sin(a), 0.0};
+		});
+		divided += dividedCells(mapOf(mesh, Charts::WithoutOverlap));
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+			const Triangle &own = mesh.triangles[f], &other = mesh.triangles[f ^ 1u];
+			const auto isShared = [&](int v) {
+				return std::find(other.begin(), other.end(), v) != other.end();
+			};
+			mesh.diagonal.emplace_back();
+			for (std::size_t k = 0; k < 3; ++k)
+				mesh.diagonal.back()[k] = isShared(own[k]) && isShared(own[(k + 1) % 3]);
+		}
+		const Parametrization map = mapOf(mesh, Charts::WithoutOverlap);
+		expectNothingTwice(mesh, map);
+		EXPECT_GE(map.report.charts, 2);
+		EXPECT_EQ(dividedCells(map), 0);
+	}
+	EXPECT_GT(divided, 0);
 }
 
 /// On a screw the flow has something to do. Parts move, but nothing else changes, on the mesh or on its refinement.

@@ -74,8 +74,8 @@ TEST(SeamCost, IsTheLengthWhereNothingIsToBeHidden)
 	}
 }
 
-/// Where a cut along diagonals is as short as one along sides, the cut takes the sides.
-TEST(SeamCost, KeepsSeamsOffDiagonalsWhereThatCostsNothing)
+/// A cut along diagonals is shorter, but the cut takes the sides.
+TEST(SeamCost, KeepsSeamsOffDiagonals)
 {
 	const SurfaceMesh mesh = torus(2, 1, 12, 9);
 	const Packed p(mesh);
@@ -98,8 +98,9 @@ TEST(SeamCost, KeepsSeamsOffDiagonalsWhereThatCostsNothing)
 		before += isDiagonal[e] && any.isCut[e];
 		after += isDiagonal[e] && cut.isCut[e];
 	}
-	EXPECT_LE(cut.edgeCount, any.edgeCount);
-	EXPECT_LT(after, before);
+	EXPECT_GE(cut.edgeCount, any.edgeCount);
+	EXPECT_GT(before, 0);
+	EXPECT_EQ(after, 0);
 	// Diagonals are what they were without any polygon.
 	avoidDiagonals({}, cost);
 }

@@ -93,7 +93,7 @@ def tried(path, size, folder, rng):
                 picture.read()
             except files.FileError:
                 pass
-        mesh.corner_colours(), mesh.corner_normals(), mesh.sized_vertices()
+        mesh.uv_picture, mesh.corner_colours(), mesh.corner_normals(), mesh.sized_vertices()
         uv = np.random.default_rng(0).random((len(mesh.faces), 3, 2))
         if rng.random() < 0.5:
             uv = np.zeros(uv.shape)

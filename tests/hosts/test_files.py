@@ -31,6 +31,8 @@ sys.path.insert(0, os.path.join(common.REPOSITORY, "filter_ricci", "python", "ri
 import file_samples as samples  # noqa: E402
 import files  # noqa: E402
 
+sys.path.pop(0)  # where a module has PyMeshLab's name
+
 HANDED = Path(common.REPOSITORY).parent / "shared" / "meshes" / "files"
 
 
@@ -256,7 +258,14 @@ class Ply(Folder):
             for polygons in (None, list(samples.TRIANGLES), list(samples.QUADS)):
                 yield order, polygons
 
+    def by_polygon(self, mesh, uv):
+        """Coordinates of triangles as a list for each polygon."""
+        table = np.empty((int(mesh.starts[-1]), 2))
+        table[mesh.corners] = uv
+        return np.split(table, mesh.starts[1:-1])
+
     def test_bit_by_bit(self):
+        """Polygons stay, and nothing else changes; the coordinates keep their place or come last."""
         for order, polygons in self.cases():
             for place in ("coordinates", "last"):
                 with self.subTest(order=order, place=place, polygons=polygons and len(polygons[0])):
@@ -266,9 +275,72 @@ class Ply(Folder):
                     said = mesh.save(self.folder / "out.ply", uv)
                     self.assertEqual(
                         (self.folder / "out.ply").read_bytes(),
-                        samples.ply(order, mesh.faces, origins=mesh.polygon, **{place: uv}))
-                    self.assertEqual(["written as triangles" in s for s in said],
+                        samples.ply(order, polygons, **{place: self.by_polygon(mesh, uv)}))
+                    self.assertEqual(["MeshLab opens no PLY" in s for s in said],
                                      [] if mesh.all_triangles else [True])
+
+    def test_only_a_torn_polygon_is_divided(self):
+        for order, polygons in self.cases():
+            for place in ("coordinates", "last"):
+                with self.subTest(order=order, place=place, polygons=polygons and len(polygons[0])):
+                    given = list(samples.QUADS) + [samples.TRIANGLES[0]] if polygons is None else polygons
+                    old = samples.ply(order, given, coordinates=True if place == "coordinates" else None)
+                    mesh = files.read(self.file("in.ply", old))
+                    uv = by_corner(mesh)
+                    first, second = np.flatnonzero(mesh.polygon == 2)[[0, -1]]
+                    uv[second] += 0 if first == second else 1  # a seam along the diagonal of the third face
+                    mesh.save(self.folder / "out.ply", uv)
+                    divided = [mesh.faces[first], mesh.faces[second]] if first != second else [given[2]]
+                    coordinates = self.by_polygon(mesh, uv)
+                    coordinates[2:3] = [uv[first], uv[second]] if first != second else [uv[first]]
+                    self.assertEqual(
+                        (self.folder / "out.ply").read_bytes(),
+                        samples.ply(order, given[:2] + divided + given[3:],
+                                    origins=[0, 1] + [2] * len(divided) + list(range(3, len(given))),
+                                    **{place: coordinates}))
+
+    def test_concave_polygons(self):
+        """They are covered once, stay as they are, and their diagonals are said."""
+        for order in (None, "<", ">"):
+            old = samples.ply(order, [np.roll(np.arange(6), k) for k in range(6)], vertices=samples.ELL)
+            mesh = files.read(self.file("in.ply", old))
+            normals = areas(mesh.vertices, mesh.faces).reshape(6, 4, 3)
+            self.assertTrue((normals[..., 2] > 0).all())
+            np.testing.assert_allclose(normals.sum(1), [[0, 0, 3]] * 6)
+            self.assertEqual(int(mesh.diagonals.sum()), 6 * 2 * 3)
+            uv = by_corner(mesh)
+            mesh.save(self.folder / "out.ply", uv)
+            again = files.read(self.folder / "out.ply")
+            np.testing.assert_array_equal(again.starts, mesh.starts)
+            np.testing.assert_allclose(again.uv, uv, atol=1e-8)
+
+    def test_lists_of_any_length_and_type(self):
+        """A polygon of so many corners that its list needs a wider count; coordinates that were no floats."""
+        n = 200
+        ring = np.c_[np.cos(np.arange(n) / 32), np.sin(np.arange(n) / 32), np.zeros(n)]
+        for form, order in (("ascii", None), ("binary_little_endian", "<")):
+            for old, new in (("", "uint float"), ("list uchar int", "uint float"), ("short", "uint float"),
+                             ("list uchar double", "uint double"), ("list int float", "int float")):
+                with self.subTest(form=form, old=old):
+                    head = (f"ply\nformat {form} 1.0\nelement vertex {n}\nproperty double x\n"
+                            "property double y\nproperty double z\nelement face 2\n"
+                            "property list int int vertex_indices\n" +
+                            (f"property {old} texcoord\n" if old else "") + "end_header\n").encode()
+                    empty = bytes({"": 0, "short": 2, "list int float": 4}.get(old, 1))
+                    body = ring.tobytes() + np.array([n, *range(n)], "<i4").tobytes() + empty + np.array(
+                        [3, 0, 1, 2], "<i4").tobytes() + empty
+                    if order is None:
+                        body = ("".join("%.17g %.17g %.17g\n" % tuple(p) for p in ring) + "".join(
+                            f"{len(p)} {' '.join(map(str, p))}{' 0' if old else ''}\n"
+                            for p in (range(n), range(3)))).encode()
+                    mesh = files.read(self.file("in.ply", head + body))
+                    uv = by_corner(mesh)
+                    mesh.save(self.folder / "out.ply", uv)
+                    again = files.read(self.folder / "out.ply")
+                    self.assertEqual([l for l in again._header if "texcoord" in l],
+                                     [f"property list {new} texcoord"])
+                    self.assertEqual(again.starts.tolist(), [0, n, n + 3])
+                    np.testing.assert_allclose(again.uv, uv, atol=1e-9)
 
     def test_new_picture(self):
         new = self.file("n\u00e4w \u4e00.png", samples.png(samples.noise(2, 2)))
@@ -293,13 +365,27 @@ class Ply(Folder):
         mesh = files.read(self.file("in.ply", head + b"end_header\n" + b"\n \n".join(body.split())))
         np.testing.assert_array_equal(mesh.faces, files.read(self.file("b.ply", content)).faces)
 
+    def test_spaces_stay(self):
+        head = (b"ply\r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty float x\r\nproperty float y\r\n"
+                b"property float z\r\nelement face 2\r\nproperty list uchar int vertex_indices\r\n")
+        body = b"end_header\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n%s"
+        mesh = files.read(self.file(
+            "in.ply", head + body % b"4 0\t1 2  3\t \r\n\r\n 3  0 1 2\r\n \r\n"))
+        mesh.save(self.folder / "out.ply", mesh.vertices[mesh.faces][..., :2])
+        self.assertEqual(
+            (self.folder / "out.ply").read_bytes(),
+            head + b"property list uchar float texcoord\r\n" + body % (
+                b"4 0\t1 2  3 8 0 0 1 0 1 1 0 1\t \r\n\r\n 3  0 1 2 6 0 0 1 0 1 1\r\n \r\n"))
+
     def test_coordinates_of_vertices(self):
         text = (
             b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
             b"property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
             b"end_header\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n")
-        np.testing.assert_allclose(
-            files.read(self.file("in.ply", text)).uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
+        mesh = files.read(self.file("in.ply", text))
+        np.testing.assert_allclose(mesh.uv, [[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]], atol=1e-7)
+        self.assertIn("s and t of the vertices stay", mesh.save(self.folder / "out.ply", by_vertex(mesh))[0])
+        np.testing.assert_allclose(files.read(self.folder / "out.ply").uv, by_vertex(mesh), atol=1e-8)
 
     def test_it_is_cut_off(self):
         for order in (None, "<", ">"):
@@ -512,12 +598,24 @@ class Gltf(Folder):
         self.assertEqual(np.rint(255 * mesh.material_colours[0]).tolist()[:3], [188, 255, 255])
 
     def test_compression_is_named(self):
-        for name, word in (("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt"),
-                           ("NONE_such", "NONE_such")):
+        """With what to do, whether the file says that it is required or has nothing else."""
+        def refused(out, sentence):
+            with self.assertRaisesRegex(files.FileError, sentence):
+                files.read(self.file("in.glb", out.glb()))
+        for name, word in (("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt")):
+            sentence = rf"in\.glb is compressed with {word} \({name}\).*: export it without compression"
             out = samples.rich()
             out.json["extensionsRequired"] = [name]
-            with self.assertRaisesRegex(files.FileError, word):
-                files.read(self.file("in.glb", out.glb()))
+            refused(out, sentence)
+            out = samples.rich()
+            primitive = out.json["meshes"][0]["primitives"][0]
+            primitive["extensions"] = {name: {"bufferView": 0, "attributes": {"POSITION": 0}}}
+            self.assertEqual(len(files.read(self.file("in.glb", out.glb())).faces), samples.RICH_TRIANGLES)
+            del out.json["accessors"][primitive["attributes"]["POSITION"]]["bufferView"]
+            refused(out, sentence)
+        out = samples.rich()
+        out.json["extensionsRequired"] = ["NONE_such"]
+        refused(out, "needs the glTF extension NONE_such, which is not known")
 
     def test_transform_of_a_texture(self):
         for change, uv in (({"offset": [0.5, 0.25]}, [0.75, 0.75]), ({"scale": [2, 3]}, [0.5, 1.5]),
@@ -621,6 +719,33 @@ class ThreeMf(Folder):
         mesh = files.read(self.file("in.3mf", samples.threemf()))
         self.assertIn("colours", mesh.save(self.folder / "out.3mf", by_corner(mesh))[0])
 
+    def test_mixtures_are_named(self):
+        """Multiproperties and composite materials, of triangles and of whole objects."""
+        for kind, inner in (("multiproperties", '<m:multi pindices="0 0"/><m:multi pindices="0 1"/>'),
+                            ("compositematerials", '<m:composite values="0.5 0.5"/>' * 2)):
+            for where, count in ((b'object id="5"', 12 - 3), (b'triangle v1="0" v2="1" v3="3"', 2)):
+                group = (f'<m:{kind} id="9" pids="1 1" matid="1" matindices="0 1">{inner}</m:{kind}>'
+                         '<object id="5"')
+                with zipfile.ZipFile(io.BytesIO(samples.threemf())) as old:
+                    parts = {name: old.read(name) for name in old.namelist()}
+                model = parts["3D/3dmodel.model"].replace(b'<object id="5"', group.encode())
+                if where.startswith(b"triangle"):
+                    model = model.replace(where + b' pid="1"', where + b' pid="9"')
+                else:
+                    model = model.replace(where, where + b' pid="9" pindex="1"')
+                parts["3D/3dmodel.model"] = model
+                out = io.BytesIO()
+                with zipfile.ZipFile(out, "w") as package:
+                    for name, content in parts.items():
+                        package.writestr(name, content)
+                mesh = files.read(self.file("in.3mf", out.getvalue()))
+                self.assertEqual(mesh.messages,
+                                 [f"{count} faces with {kind}: their colours and pictures are not read"])
+                self.assertIn("give way", mesh.save(self.folder / "out.3mf", by_corner(mesh))[0])
+                again = files.read(self.folder / "out.3mf")
+                self.assertEqual(again.messages, [])
+                np.testing.assert_allclose(again.uv, by_corner(mesh), atol=1e-8)
+
 
 class Others(Folder):
     def test_stl(self):
@@ -673,7 +798,7 @@ class Others(Folder):
         mesh.face_colours[::4, 0] = 1
         said = {e: mesh.save(self.folder / f"out{e}", by_vertex(mesh)) for e in files.WRITES}
         self.assertTrue(all("colours of faces" in said[e][0] for e in (".obj", ".ply", ".3mf")))
-        self.assertEqual(said[".glb"], [])
+        self.assertFalse(any("colours" in sentence for sentence in said[".glb"]))
         np.testing.assert_allclose(files.read(self.folder / "out.glb").corner_colours(), mesh.corner_colours(),
                                    atol=1e-6)
 
@@ -688,9 +813,13 @@ class Others(Folder):
         np.testing.assert_allclose(again.uv, by_corner(mesh), atol=1e-8)
 
     def test_quads_stay_quads(self):
-        mesh = files.read(self.file("in.off", samples.off()))
-        mesh.save(self.folder / "out.obj", by_vertex(mesh))
-        self.assertEqual(np.diff(files.read(self.folder / "out.obj").starts).tolist(), [4] * 6)
+        """In OBJ, which all programs read with coordinates; others get triangles, and that is said."""
+        mesh = files.read(self.file("in.off", samples.off(False)))
+        for ending in files.WRITES:
+            said = mesh.save(self.folder / f"out{ending}", by_vertex(mesh))
+            corners = np.diff(files.read(self.folder / f"out{ending}").starts).tolist()
+            self.assertEqual(corners, [4] * 6 if ending == ".obj" else [3] * 12)
+            self.assertEqual(any("6 faces with more than 3 corners" in s for s in said), ending != ".obj")
 
     def test_normals_and_colours_are_carried(self):
         mesh = files.read(self.file("in.ply", samples.ply("<", list(samples.TRIANGLES))))
@@ -1006,6 +1135,28 @@ class OtherReaders(Folder):
                 own = files.read(out)
                 points = read.vertex_matrix()[read.face_matrix()]
                 self.assertEqual(rows(points, found), rows(own.vertices[own.faces], uv), out.name)
+
+    def test_pymeshlab_opens_polygons_as_obj_only(self):
+        """As the message about such a PLY says."""
+        try:
+            import pymeshlab
+        except ImportError:
+            self.skipTest("SKIPPED: PyMeshLab is not installed")
+        text = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
+        mesh, host = files.read(self.file("in.ply", text)), pymeshlab.MeshSet()
+        said, = mesh.save(self.folder / "out.ply", by_vertex(mesh))
+        self.assertIn("1 face with more than 3 corners: MeshLab opens no PLY of such faces", said)
+        with self.assertRaises(pymeshlab.PyMeshLabException):
+            host.load_new_mesh(str(self.folder / "out.ply"))
+        mesh.save(self.folder / "out.obj", by_vertex(mesh))
+        host.load_new_mesh(str(self.folder / "out.obj"))
+        host.meshing_poly_to_tri()
+        read = host.current_mesh()
+        self.assertEqual(rows(read.vertex_matrix()[read.face_matrix()],
+                              read.wedge_tex_coord_matrix().reshape(-1, 3, 2)),
+                         rows(mesh.vertices[mesh.faces], by_vertex(mesh)))
 
     def test_trimesh(self):
         try:

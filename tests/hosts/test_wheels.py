@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheels that filter_ricci/wheels.sh makes: what is in them, and the maps of every library that can be
-run here, beside those of the library that the compiler of this machine has made.
-Usage: test_wheels.py BUILD_DIR PLATFORM..., with a Python that has lief and numpy. tests/deep.sh makes the
+"""The wheels that filter_ricci/wheels.sh makes, and the source distribution: what is in them, and the maps of
+every library that can be run here, beside those of the library that the compiler of this machine has made.
+Usage: test_wheels.py BUILD_DIR PLATFORM... [sdist], with a Python that has lief and numpy. tests/deep.sh makes the
 systems in BUILD_DIR/deep/systems: oldest, a Debian, and arm64, another's files."""
 
 import glob
@@ -21,9 +21,10 @@ import zipfile
 import common
 import meshes
 
-PLATFORMS = sys.argv[1:]
+PLATFORMS = [name for name in sys.argv[1:] if name != "sdist"]
+HAS_SDIST = "sdist" in sys.argv[1:]
 sys.argv[1:] = []
-if not PLATFORMS:
+if not PLATFORMS and not HAS_SDIST:
     common.skip("the wheels for other machines: bash tests/deep.sh wheels makes and tries them")
 
 import lief
@@ -341,6 +342,23 @@ class Maps(unittest.TestCase):
             self.assertLess(size, 110e6)
             self.assertLess(both, 1.3 * alone)
             self.assertLess(tries[-1][2], 30 * 1024)
+            self.example(folder, [python])
+
+    def test_source_distribution(self):
+        """pip compiles it in an empty environment, as where no wheel fits."""
+        if not HAS_SDIST:
+            self.skipTest("the source distribution was not asked for")
+        self.needed("a compiler of C++ (Debian: g++)", "c++")
+        with tempfile.TemporaryDirectory() as folder:
+            run([sys.executable, "-m", "venv", folder])
+            python, needed = os.path.join(folder, "bin", "python"), os.path.join(folder, "needed")
+            try:
+                run([python, "-m", "pip", "download", "-q", "-d", needed, "cmake>=3.25", "ninja", "numpy"])
+            except AssertionError as problem:
+                self.skipTest(f"pip cannot fetch cmake, ninja and numpy: {problem}")
+            run([python, "-m", "pip", "install", "-q", "--no-index", "--find-links", needed,
+                 os.path.join(common.BUILD, "release", "wheels", f"ricciflow-{VERSION}.tar.gz")])
+            self.by_python("source distribution", [python])
             self.example(folder, [python])
 
     def example(self, folder, python):

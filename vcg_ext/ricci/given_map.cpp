@@ -22,6 +22,7 @@ FlatMesh meshOf(const Component& component)
 		flatMeshOf(Array<Triangle>(component.triangles), plane, component.positions.values());
 	for (const Face f : component.face.indices())
 		mesh.lengths[f.number()] = component.sides(f);
+	mesh.isDiagonal = sidesOf(component.diagonal);
 	numberPoints([&](Corner c) { return plane[c]; }, [](Corner, Corner) { return true; }, mesh);
 	return mesh;
 }

@@ -161,6 +161,7 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 {
 	FlatMesh& mesh = map.mesh;
 	mesh.across.clear();
+	mesh.isDiagonal.clear();
 	orientLikeInput(opened, mesh);
 	if (opened.isAsGiven()) {
 		sortByFace(input.triangles.size(), mesh);

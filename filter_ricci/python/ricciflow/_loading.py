@@ -168,10 +168,15 @@ def _as_bytes(colours):
 
 def _of_file(mesh):
     """What a run may read of a MeshFile."""
-    face_colours = mesh.face_colours if mesh.face_colours is not None else mesh.material_colours
+    vertex_colours, face_colours = mesh.vertex_colours, mesh.face_colours
+    if face_colours is None:
+        face_colours = mesh.material_colours
+        if face_colours is not None and vertex_colours is not None:
+            product = mesh.by_vertex(mesh.corner_colours())
+            vertex_colours = vertex_colours if product is None else product
     uv = None if mesh.uv is None else numpy.nan_to_num(mesh.uv)
     new = Given(mesh.vertices, mesh.faces, mesh.path.name, faux=mesh.diagonals, uv=uv,
-                picture_of_face=mesh.uv_picture, vertex_colors=_as_bytes(mesh.vertex_colours),
+                picture_of_face=mesh.uv_picture, vertex_colors=_as_bytes(vertex_colours),
                 face_colors=_as_bytes(face_colours))
     new.pictures, new.file, new.messages = mesh.pictures, mesh, list(mesh.messages)
     return new
@@ -184,6 +189,32 @@ def _by_trimesh(path):
         return Given(*checked_arrays(mesh.vertices, mesh.faces), os.path.basename(path))
     except Exception as problem:  # its readers raise anything
         raise OSError(f"{path} cannot be read by trimesh: {problem}") from None
+
+
+class _Image:
+    """A picture of Pillow's, as files have theirs."""
+
+    def __init__(self, image):
+        self.name, self.image = "picture of the material", image
+
+    def read(self):
+        return numpy.asarray(self.image.convert("RGBA"))
+
+
+def _of_object(mesh):
+    """A mesh with the colours or the picture that trimesh keeps in `visual`."""
+    new = Given(*checked_arrays(mesh.vertices, mesh.faces))
+    visual = getattr(mesh, "visual", None)
+    kind = getattr(visual, "kind", None)
+    if kind in ("vertex", "face"):
+        new.arrays[f"{kind}_colors"] = numpy.array(getattr(visual, f"{kind}_colors"), numpy.uint8)
+    elif kind == "texture" and visual.uv is not None:
+        material = visual.material
+        image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+        new.arrays["uv"] = per_corner(numpy.asarray(visual.uv)[new.faces][..., :2], len(new.faces))
+        if image is not None:
+            new.pictures = [_Image(image)]
+    return new
 
 
 # What a mesh has that lacks an array which others have.
@@ -276,7 +307,7 @@ def given(mesh, faces):
         if hasattr(mesh, "to_geometry"):  # a scene of trimesh
             mesh = mesh.to_geometry()
         if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
-            mesh = (mesh.vertices, mesh.faces)
+            return _of_object(mesh)
         if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
             raise TypeError("A mesh is a path, vertices and faces, an object that has them, or a Mesh or "
                             f"MeshSet of PyMeshLab, not {type(mesh).__name__}")

@@ -4,6 +4,7 @@
 
 #include "../base/graphs.h"
 #include "../base/indexed.h"
+#include "../cut/cut_graph.h"
 #include "../layout/flat_mesh.h"
 
 #include <algorithm>
@@ -85,7 +86,8 @@ std::vector<std::vector<int>> smallerPieces(
 }
 
 /// The dual graph of charts that fall into parts: triangles with joined sides are neighbours. An edge
-/// weighs what it costs to cut it: its length, times the mean price of its two triangles.
+/// weighs what it costs to cut it: its length, times the mean price of its two triangles, and for a diagonal of a polygon
+/// times kDiagonalFactor.
 class DualGraph
 {
 public:
@@ -114,6 +116,8 @@ public:
 		double cost = m_chart.lengths[side] / m_longest;
 		if (!price.empty())
 			cost *= 0.5 * (price[side.face()] + price[joined(side).face()]);
+		if (!m_chart.isDiagonal.empty() && m_chart.isDiagonal[side])
+			cost *= kDiagonalFactor;
 		return static_cast<std::int64_t>(cost * kUnits) + 1;
 	}
 

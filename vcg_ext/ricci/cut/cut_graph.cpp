@@ -328,9 +328,6 @@ namespace {
 /// Cost factor at exposure 1, less 1.
 constexpr double kMaxFactor = 9.0;
 
-/// Cost factor of diagonals.
-constexpr double kDiagonalFactor = 1.01;
-
 /// Time of the smoothing step as a share of the area: features up to sqrt(this) of the size go.
 constexpr double kSmoothing = 1.0 / 400.0;
 

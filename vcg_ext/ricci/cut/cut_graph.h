@@ -117,8 +117,11 @@ EdgeArray<double> seamCost(
 	const VertexArray<Point3>& positions,
 	double hiding);
 
-/// Raises the cost of seams along diagonals of polygons by a hundredth, so that of paths of about the
-/// same cost the one along sides is taken.
+/// Cost factor of cuts along diagonals of polygons: detours along sides are never so much longer, so that a polygon is
+/// divided only where no other path goes round it.
+constexpr double kDiagonalFactor = 1e3;
+
+/// Raises the cost of seams by kDiagonalFactor.
 /// \param isDiagonal see FlowDomain; may be empty
 void avoidDiagonals(const EdgeArray<char>& isDiagonal, EdgeArray<double>& cost);
 

@@ -20,6 +20,10 @@ int FlatMesh::vertexCount() const
 
 void FlatMesh::append(FlatMesh other)
 {
+	if (!isDiagonal.empty() || !other.isDiagonal.empty()) {
+		isDiagonal.resize(3 * points.size(), 0);
+		other.isDiagonal.resize(3 * other.points.size(), 0);
+	}
 	for (Triangle& corners : other.points)
 		for (int& p : corners)
 			p += place.size();
@@ -30,6 +34,7 @@ void FlatMesh::append(FlatMesh other)
 	points.append(std::move(other.points));
 	place.append(std::move(other.place));
 	lengths.append(std::move(other.lengths));
+	isDiagonal.append(std::move(other.isDiagonal));
 	chart.append(std::move(other.chart));
 	face.append(std::move(other.face));
 }
@@ -140,6 +145,9 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 		part.lengths.push_back(lengths[f]);
 		part.face.push_back(face[f]);
 	}
+	for (const int f : isDiagonal.empty() ? std::vector<int>() : triangles)
+		for (const Corner side : cornersOf(f))
+			part.isDiagonal.push_back(isDiagonal[side]);
 	part.chart.assign(triangles.size(), 0);
 	if (across.empty() || triangles.empty())
 		return part;
@@ -229,6 +237,15 @@ void connect(FlatMesh& mesh)
 	mesh.across.resize(3 * mesh.vertices.size());
 	for (const Corner side : mesh.across.indices())
 		mesh.across[side] = sides.across(side);
+}
+
+CornerArray<char> sidesOf(const SideMarks& marks)
+{
+	CornerArray<char> sides;
+	for (const std::array<char, 3>& triangle : marks)
+		for (const char mark : triangle)
+			sides.push_back(mark);
+	return sides;
 }
 
 FlatMesh flatMeshOf(

@@ -30,8 +30,10 @@ struct FlatMesh
 	Array<Triangle> points;
 	Array<Point2> place;                  ///< [point]
 	Array<std::array<double, 3>> lengths; ///< [triangle] of its sides on the surface
-	Array<int> chart;                     ///< [triangle] -1: of none
-	Array<int> face;                      ///< [triangle] the input's face that it lies in
+	/// [side] inside a polygon (SurfaceMesh); empty where there are none, and in results
+	CornerArray<char> isDiagonal;
+	Array<int> chart; ///< [triangle] -1: of none
+	Array<int> face;  ///< [triangle] the input's face that it lies in
 	/// [vertex] where it lies on the input: first the input's vertices, then points of the refinement
 	Array<SurfacePoint> source;
 
@@ -135,6 +137,9 @@ void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
 
 /// Finds FlatMesh::across by the vertices.
 void connect(FlatMesh& mesh);
+
+/// Marks of sides, for FlatMesh::isDiagonal.
+CornerArray<char> sidesOf(const SideMarks& marks);
 
 /// The flat mesh, one chart, of the faces of a surface whose corners are placed one by one: two corners at one
 /// vertex are one point if a chain of triangles joins them whose common sides have the same ends in the plane.

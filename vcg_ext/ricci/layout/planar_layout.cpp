@@ -52,6 +52,7 @@ flatMeshOf(const Component& component, const FlowDomain& domain, const PlanarLay
 		flat.lengths.push_back(component.sides(Face(f)));
 		flat.face.push_back(f);
 	}
+	flat.isDiagonal = sidesOf(component.diagonal);
 	flat.chart.assign(flat.face.size(), 0);
 	flat.source = verticesOf(component.positions.values().size());
 	connect(flat);

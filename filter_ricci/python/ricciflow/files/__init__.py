@@ -61,7 +61,7 @@ def _converted(_, path, mesh):
                         f'{", ".join(WRITES)} are')
     target = _READERS[path.suffix.lower()](path, write(mesh))
     target.messages = []
-    if mesh._polygons is not None and path.suffix.lower() in ('.obj', '.ply'):
+    if mesh._polygons is not None and path.suffix.lower() == '.obj':
         target._polygons, target.diagonals, target.faces = mesh._polygons, mesh.diagonals, mesh.faces
     return target
 

@@ -9,6 +9,7 @@ import base64
 import copy
 import json
 import struct
+from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -43,7 +44,7 @@ def _guarded(function):
 
 
 class _Primitive:
-    """Triangles of one primitive: which of `faces`, and with vertices as its accessors count them."""
+    """Triangles of one primitive: which of `faces`, as its accessors count vertices, and as shown."""
 
     def __init__(self, mesh, number, faces, triangles, turned):
         self.mesh, self.number, self.faces, self.triangles, self.turned = (
@@ -53,6 +54,7 @@ class _Primitive:
             triangles,
             turned,
         )
+        self.shown = triangles[:, [0, 2, 1]] if turned else triangles
 
 
 class GltfFile(MeshFile):
@@ -224,8 +226,7 @@ class GltfFile(MeshFile):
 
     def _read_meshes(self):
         places = self._places()
-        points, faces, self._primitives = [], [], []
-        uv, picture, colours, materials = [], [], [], []
+        points, faces, self._primitives, self._colours_of = [], [], [], []
         vertex_count = face_count = 0
         for m, mesh in enumerate(self.json.get('meshes', [])):
             part = Part(mesh.get('name', f'mesh {m}'), slice(0), slice(0), places.get(m, [np.eye(4)]))
@@ -234,27 +235,27 @@ class GltfFile(MeshFile):
             for n, primitive in enumerate(mesh['primitives']):
                 if primitive.get('mode', 4) not in _TRIANGLES or 'POSITION' not in primitive['attributes']:
                     continue
-                triangles = self._triangles(primitive)
                 position = primitive['attributes']['POSITION']
+                if 'bufferView' not in self.json['accessors'][position]:
+                    for name in primitive.get('extensions', {}):
+                        self._refuse_compressed(name)
+                triangles = self._triangles(primitive)
                 colour = primitive['attributes'].get('COLOR_0')
-                if (position, colour) not in bases:
-                    bases[position, colour] = vertex_count
+                key = position, colour, None if colour is None else primitive.get('material')
+                if key not in bases:  # colours of vertices are multiplied by those of materials
+                    bases[key] = vertex_count
                     xyz = self._values(position)
                     if xyz.shape[1:] != (3,):
                         raise FileError(f'{self.path.name} is damaged: positions that are not VEC3')
                     points.append(xyz * [-1, 1, 1] if turned else xyz)
-                    colours.append((len(xyz), colour))
+                    self._colours_of.append((colour, len(xyz)))
                     vertex_count += len(xyz)
                 stop = face_count + len(triangles)
-                self._primitives.append(_Primitive(m, n, slice(face_count, stop), triangles, turned))
-                shown = triangles[:, [0, 2, 1]] if turned else triangles
-                base = bases[position, colour]
-                faces.append(shown + np.int32(base) if base else shown)
+                primitive = _Primitive(m, n, slice(face_count, stop), triangles, turned)
+                self._primitives.append(primitive)
+                base = bases[key]
+                faces.append(primitive.shown + np.int32(base) if base else primitive.shown)
                 face_count = stop
-                of_uv, of_picture, factor = self._look(primitive)
-                uv.append(None if of_uv is None else of_uv[shown])
-                picture.append(np.full(len(triangles), of_picture, np.int32))
-                materials.append(np.broadcast_to(np.array(factor, np.float32), (len(triangles), 4)))
             if face_count > first:
                 part.faces, part.vertices = slice(first, face_count), slice(begin, vertex_count)
                 self.parts.append(part)
@@ -264,14 +265,47 @@ class GltfFile(MeshFile):
         self.faces = faces[0] if len(faces) == 1 else np.concatenate(faces)
         self.diagonals = np.broadcast_to(np.False_, self.faces.shape)
         self.messages += remarks(self.vertices, self.faces)
-        if any(u is not None for u in uv):
-            self.uv = np.concatenate(
-                [np.full((len(p), 3, 2), np.nan) if u is None else u for u, p in zip(uv, picture)])
-            self.uv_picture = np.concatenate(picture)
-        if any(p.get('material') is not None for p in self._used()):
-            self.material_colours = linear_to_srgb(np.concatenate(materials))
-        if any(c is not None for _, c in colours):
-            self.vertex_colours = linear_to_srgb(np.concatenate([self._colours(c, n) for n, c in colours]))
+
+    @cached_property
+    @_guarded
+    def _looks(self):
+        """Of each primitive: old coordinates (vertices, 2) or None, its picture or -1, its factor."""
+        return [self._look(p) for p in self._used()]
+
+    @cached_property
+    @_guarded
+    @np.errstate(all='ignore')
+    def uv(self):
+        """As in MeshFile; read when it is asked for, as all below."""
+        if all(uv is None for uv, _, _ in self._looks):
+            return None
+        return np.concatenate([np.full((len(p.shown), 3, 2), np.nan) if uv is None else uv[p.shown]
+                               for p, (uv, _, _) in zip(self._primitives, self._looks)])
+
+    @cached_property
+    @_guarded
+    def uv_picture(self):
+        if self.uv is None:
+            return None
+        return self._of_faces([picture for _, picture, _ in self._looks], np.int32)
+
+    @cached_property
+    def material_colours(self):
+        if all(p.get('material') is None for p in self._used()):
+            return None
+        return self._of_faces(linear_to_srgb([factor for _, _, factor in self._looks]), np.float32)
+
+    @cached_property
+    @_guarded
+    @np.errstate(all='ignore')
+    def vertex_colours(self):
+        if all(number is None for number, _ in self._colours_of):
+            return None
+        return linear_to_srgb(np.concatenate([self._colours(*entry) for entry in self._colours_of]))
+
+    def _of_faces(self, values, kind):
+        """Of each triangle what is given for each primitive."""
+        return np.repeat(np.asarray(values, kind), [len(p.triangles) for p in self._primitives], 0)
 
     def _used(self):
         return [self.json['meshes'][p.mesh]['primitives'][p.number] for p in self._primitives]

@@ -234,13 +234,14 @@ class ObjFile(MeshFile):
         at, end, plain = self._second_numbers()
         rows, mask = digits(corner_vt, b'/')
         mask[~plain, 0] = False
-        begin = np.r_[at[stays], self._lines.begin[gone], numbers_of_lines[:, 0]]
-        end = np.r_[
-            end[stays], np.minimum(self._lines.end[gone] + 1, len(self._data)), numbers_of_lines[:, 1]]
-        order = np.argsort(begin, kind='stable')
-        rows = np.r_[rows[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), np.uint8)][order]
-        mask = np.r_[mask[stays], np.zeros((len(begin) - stays.sum(), rows.shape[1]), bool)][order]
-        written, moved = spliced(np.frombuffer(self._data, np.uint8), begin[order], end[order], rows, mask)
+        rows, mask = rows[stays], mask[stays]
+
+        def without(begin, end):
+            return begin, end, np.zeros(len(begin), np.int64), np.zeros(0, np.uint8)
+        written, moved = spliced(
+            np.frombuffer(self._data, np.uint8), (at[stays], end[stays], mask.sum(1), rows[mask]),
+            without(self._lines.begin[gone], np.minimum(self._lines.end[gone] + 1, len(self._data))),
+            without(*numbers_of_lines.T))
 
         end_line = b'\r\n' if b'\r\n' in self._data[:10000] else b'\n'
         head = table('vt %.9g %.9g\n', points)

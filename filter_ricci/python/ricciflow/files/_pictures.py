@@ -61,7 +61,8 @@ def decode(data, name):
     except FileError as error:
         raise FileError(str(error) if name in str(error) else f'the picture {name}: {error}') from None
     except Exception as error:  # Pillow's readers raise anything
-        raise FileError(f'the picture {name} cannot be read: {error}') from error
+        reason = error if '<_io' not in str(error) else 'Pillow does not know its format, or it is damaged'
+        raise FileError(f'the picture {name} cannot be read: {reason}') from error
 
 
 def write(path, picture, quality=95):

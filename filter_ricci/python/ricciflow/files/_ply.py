@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stanford PLY, ascii and binary. Written again, every element and property stays; texcoord is of corners.
-
-MeshLab, whose property it is, reads it of triangles only: larger polygons are written as triangles.
-"""
+"""Stanford PLY, ascii and binary. Written again, every element and property stays; texcoord is of corners."""
 
 import struct
-from itertools import chain
+from functools import cached_property
 
 import numpy as np
 
 from . import _pictures
 from ._shared import FileError, MeshFile, beside, copy_beside, counted, mixed, relative, rewritten, write_file
-from ._text import numbers, whole, words_of_lines
+from ._text import numbers, spliced, whole, word_starts, words_of_lines
 
 _TYPES = {'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4',
           'float': 'f4', 'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2',
@@ -29,12 +26,29 @@ class _Element:
         self.begin = self.end = 0
         self.columns = {}  # by property: (n,) values, or (counts (n,), all values one after another)
         self.rows = None  # (n + 1,) where each row begins, or None: all have the same length
+        self.table = None  # then, in a binary file, (n,) structured
 
     def row_begins(self):
         """(n + 1,) bytes of `data`."""
         if self.rows is None:
             return np.linspace(self.begin, self.end, self.count + 1).astype(np.int64)
         return self.rows
+
+    def side_by_side(self, names):
+        """(n, k) the numbers of properties; None where they do not follow each other in the table.
+
+        Rows are copied whole, in a quarter of the time that their numbers take.
+        """
+        if self.table is None:
+            return None
+        kinds, places = zip(*(self.table.dtype.fields[name][:2] for name in names))
+        sizes = [kind.itemsize for kind in kinds]
+        if not sum(sizes) or any(k.base != kinds[0].base for k in kinds) or any(
+                place + size != other for place, size, other in zip(places, sizes, places[1:])):
+            return None
+        rows = np.ndarray(self.count, np.dtype((np.void, sum(sizes))), self.table, places[0],
+                          (self.table.itemsize,))
+        return np.ascontiguousarray(rows).view(kinds[0].base).reshape(self.count, -1)
 
 
 class PlyFile(MeshFile):
@@ -81,9 +95,11 @@ class PlyFile(MeshFile):
                         words[1]]
                     known = True
                 elif words[:1] == ['element']:
-                    self._elements.append(_Element(words[1], int(words[2])))
-                    if self._elements[-1].count < 0:
+                    if int(words[2]) < 0 or any(words[1] == e.name for e in self._elements):
                         raise ValueError
+                    self._elements.append(_Element(words[1], int(words[2])))
+                elif words[:1] == ['property'] and words[-1] in self._elements[-1].types:
+                    raise ValueError
                 elif words[:2] == ['property', 'list']:
                     self._elements[-1].types[words[4]] = _TYPES[words[3]], _TYPES[words[2]]
                     if _TYPES[words[2]][0] == 'f':
@@ -125,7 +141,7 @@ class PlyFile(MeshFile):
             if row.itemsize * n <= len(data) - at:
                 table = np.frombuffer(data, row, n, at)
                 if all((table[f'{name} count'] == k).all() for name, k in length.items()):
-                    element.end = at + n * row.itemsize
+                    element.end, element.table = at + n * row.itemsize, table
                     for name, _, l in kinds:
                         element.columns[name] = table[name] if l is None else (length[name], table[name])
                     return
@@ -157,7 +173,14 @@ class PlyFile(MeshFile):
                 fixed = 0
         data, at, begins = self._data, element.begin, []
         try:
-            for _ in range(element.count):
+            lists = [l.char for _, _, l in kinds if l is not None]
+            if lists == ['B']:  # one list with a byte as its count, as most files have it: four times as fast
+                (skip, _, own, size), = steps
+                lengths = [skip + own + count * size + fixed for count in range(256)]
+                for _ in range(element.count):
+                    begins.append(at)
+                    at += lengths[data[at + skip]]
+            for _ in range(element.count - len(begins)):
                 begins.append(at)
                 for skip, unpack, own, size in steps:
                     at += skip
@@ -166,9 +189,9 @@ class PlyFile(MeshFile):
                         self._fail(f'a list of {element.name} has {count} values')
                     at += own + count * size
                 at += fixed
-                if at > len(data):
-                    raise struct.error
-        except struct.error:
+            if at > len(data):
+                raise IndexError
+        except (struct.error, IndexError):
             self._fail(f'the file ends within the {element.count} rows of {element.name}')
         return np.array(begins + [at], np.int64)
 
@@ -320,9 +343,10 @@ class PlyFile(MeshFile):
         vertex, face = self._by_name.get('vertex'), self._by_name.get('face')
         if vertex is None or not all(p in vertex.types and vertex.types[p][1] is None for p in 'xyz'):
             self._fail('there are no vertices with x, y and z')
-        self.vertices = np.empty((vertex.count, 3))
-        for k, p in enumerate('xyz'):
-            self.vertices[:, k] = vertex.columns[p]
+        points = vertex.side_by_side('xyz')
+        if points is None:
+            points = np.stack([vertex.columns[p] for p in 'xyz'], 1)
+        self.vertices = points.astype(np.float64)
         self.vertex_colours = _colours(vertex)
         name = next((p for p in _INDICES if face and p in face.types and face.types[p][1]), None)
         self._indices = name
@@ -330,7 +354,8 @@ class PlyFile(MeshFile):
             return self.set_polygons(np.zeros((0, 3), np.int64))
         counts, values = face.columns[name]
         if np.isscalar(counts) and counts == 3:
-            self.set_polygons(values)
+            rows = face.side_by_side([name])
+            self.set_polygons(values if rows is None else rows)
         else:
             starts = np.r_[0, np.cumsum(np.broadcast_to(counts, face.count), dtype=np.int64)]
             self.set_polygons(np.ravel(values), starts)
@@ -339,27 +364,44 @@ class PlyFile(MeshFile):
         names = [_name(line.split(None, 2)[2].strip()) for line in self._header
                  if line.split()[:2] == ['comment', 'TextureFile'] and len(line.split()) > 2]
         self.pictures = [_pictures.Picture(n, beside(self.path.parent, n)) for n in names]
-        self.uv = self._coordinates(vertex, face)
-        if self.uv is not None and names:
-            number = face.columns['texnumber'] if face.types.get('texnumber', ('', 1))[1] is None else 0
-            number = whole(np.broadcast_to(number, face.count))[self.polygon]
-            known = (number >= 0) & (number < len(names)) & ~np.isnan(self.uv).any((1, 2))
-            self.uv_picture = np.where(known, number, -1).astype(np.int32)
         return None
 
-    def _coordinates(self, vertex, face):
+    @cached_property
+    @np.errstate(all='ignore')
+    def uv(self):
+        """As in MeshFile; read when it is asked for."""
+        vertex, face = self._by_name['vertex'], self._by_name.get('face')
+        if self._indices is None:
+            return None
         if face.types.get('texcoord', ('', None))[1]:
             counts, values = face.columns['texcoord']
+            if self.all_triangles and np.isscalar(counts) and counts == 6:
+                return values.reshape(-1, 3, 2).astype(np.float64)
             counts = np.broadcast_to(counts, face.count)
             uv, own = np.full((int(self.starts[-1]), 2), np.nan), np.diff(self.starts)
             full = counts == 2 * own
             value = np.repeat(full, counts)
             uv[np.repeat(full, own)] = np.ravel(values)[value].reshape(-1, 2)
             return uv[self.corners]
-        for pair in _COORDINATES:
-            if all(p in vertex.types and vertex.types[p][1] is None for p in pair):
-                return np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
-        return None
+        pair = self._coordinates_of_vertices()
+        return pair and np.c_[vertex.columns[pair[0]], vertex.columns[pair[1]]].astype(np.float64)[self.faces]
+
+    def _coordinates_of_vertices(self):
+        """The names of the two properties, or None."""
+        types = self._by_name['vertex'].types
+        return next((pair for pair in _COORDINATES if all(p in types and types[p][1] is None for p in pair)),
+                    None)
+
+    @cached_property
+    def uv_picture(self):
+        """As in MeshFile."""
+        if self.uv is None or not self.pictures:
+            return None
+        face = self._by_name['face']
+        number = face.columns['texnumber'] if face.types.get('texnumber', ('', 1))[1] is None else 0
+        number = whole(np.broadcast_to(number, face.count))[self.polygon]
+        known = (number >= 0) & (number < len(self.pictures)) & ~np.isnan(self.uv).any((1, 2))
+        return np.where(known, number, -1).astype(np.int32)
 
     @np.errstate(all='ignore')
     def corner_normals(self):
@@ -374,12 +416,12 @@ class PlyFile(MeshFile):
         if self._indices is None:
             self._fail('there are no faces')
         new = rewritten(self, uv, refined)
-        large = np.diff(self.starts) > 3
-        new.torn |= large
-        face = self._by_name['face']
-        kind = face.types.get('texcoord', ('f4', 'u1'))
+        face, corners = self._by_name['face'], np.diff(self.starts)
+        most = 2 * int(corners[~new.torn].max(initial=3))
+        t, l = face.types.get('texcoord', ('f4', 'u1'))
+        kind = (t if t[0] == 'f' else 'f4',
+                l if l is not None and most <= np.iinfo(l).max else 'u1' if most < 256 else 'u4')
         extra = sum(len(new.triangles(p)) - 1 for p in np.flatnonzero(new.torn))
-        header = self._new_header(path, face, face.count + extra, len(new.points), texture)
         body = []
         for element in self._elements:
             if element is face:
@@ -389,127 +431,132 @@ class PlyFile(MeshFile):
             if element.name == 'vertex' and len(new.points):
                 body.append(self._new_vertices(element, new))
         body.append(self._data[self._elements[-1].end:])
+        header = self._new_header(path, face, kind, face.count + extra, len(new.points), texture)
         write_file(path, b''.join([header, *body]))
+        messages, large = [], int(((corners > 3) & ~new.torn).sum())
+        if large:
+            messages.append(f'{counted(large, "face")} with more than 3 corners: MeshLab opens no PLY of '
+                            'such faces with texture coordinates; save it as OBJ for MeshLab')
+        if self._coordinates_of_vertices():
+            messages.append(f'{" and ".join(self._coordinates_of_vertices())} of the vertices stay: programs '
+                            'that read these, and not texcoord, show the old map')
         files = [(p.name, p.source) for p in self.pictures if p.source is not None and texture is None]
-        messages = [f'{counted(int(large.sum()), "face")} with more than 3 corners: written as triangles, '
-                    'since MeshLab reads no others with texture coordinates'] if large.any() else []
         return messages + copy_beside(files, self.path.parent, path.parent)
 
-    def _new_header(self, path, face, faces, vertices, texture):
+    @property
+    def _line_end(self):
+        header = self._data[:self._body]
+        return b'\r\n' if b'\r\n' in header else b'\n' if b'\n' in header else b'\r'
+
+    def _new_header(self, path, face, kind, faces, vertices, texture):
         lines, out, current = self._header, [], None
         names = [i for i, line in enumerate(lines) if line.split()[:2] == ['comment', 'TextureFile']]
         shows = None if texture is None else 'comment TextureFile ' + relative(
             texture, path.parent).encode('utf-8', 'surrogateescape').decode('latin1')  # as all lines are kept
+        names_of = {kind: name for name, kind in reversed(_TYPES.items())}
+        coordinates = f'property list {names_of[kind[1]]} {names_of[kind[0]]} texcoord'
         for i, line in enumerate(lines):
             words = line.split()
             if words[:1] in (['element'], ['end_header']):
                 if current == 'face' and 'texcoord' not in face.types:
-                    out.append('property list uchar float texcoord')
+                    out.append(coordinates)
                 current = words[1] if words[0] == 'element' else None
                 if current == 'face':
                     line = f'element face {faces}'
                 elif current == 'vertex' and vertices:
                     line = f'element vertex {int(words[2]) + vertices}'
+            elif current == 'face' and words[:1] == ['property'] and words[-1] == 'texcoord':
+                line = line if face.types['texcoord'] == kind else coordinates
             if shows and i in names:
                 continue
             out.append(line)
             if shows and words[:1] == ['format']:
                 out.append(shows)
-        end = '\r\n' if b'\r\n' in self._data[:self._body] else '\n'
-        if b'\n' not in self._data[:self._body]:
-            end = '\r'
+        end = self._line_end.decode()
         return (end.join(out) + end).encode('latin1')
+
+    def _spans(self, element):
+        """By property, where in `data` it begins and ends in each row: two (n,)."""
+        at, spans = element.row_begins()[:-1], {}
+        if self._order is None:
+            text = np.frombuffer(self._data, np.uint8, element.end - element.begin, element.begin)
+            words = np.flatnonzero(word_starts(text)) + element.begin
+            ends = element.end - np.flatnonzero(word_starts(text[::-1]))[::-1]
+            at = np.searchsorted(words, at)
+        for name, (t, l) in element.types.items():
+            count = 0 if l is None else np.asarray(element.columns[name][0])
+            if self._order is None:
+                stop = at + 1 + count
+                spans[name] = words[at], ends[stop - 1]
+            else:
+                size = np.dtype(t).itemsize
+                stop = at + (size if l is None else np.dtype(l).itemsize + size * count)
+                spans[name] = at, stop
+            at = stop
+        return spans
 
     def _face_rows(self, face, kind, new, zero):
         """The rows of faces with texcoord, which keeps its place or is the last."""
         text = self._order is None
-        wide = face.columns.get('texcoord')
-        counts = face.columns[self._indices][0]
-        if not text and np.isscalar(counts) and face.rows is None and not new.torn.any() and face.count:
-            rows = np.frombuffer(self._data[face.begin:face.end], np.uint8).reshape(face.count, -1).copy()
-            at = {}
-            place = 0
-            for name, (t, l) in face.types.items():
-                at[name] = place
-                size = np.dtype(t).itemsize
-                place += size if l is None else np.dtype(l).itemsize + size * face.columns[name][0]
-                if zero and name == 'texnumber' and l is None:
-                    rows[:, at[name]:place] = 0
-                at[name, 'end'] = place
-            begin, end = (at['texcoord'], at['texcoord', 'end']) if wide is not None else (place, place)
-            values = new.corner_uv.reshape(face.count, -1).astype(self._order + kind[0])
-            head = np.full((face.count, 1), 2 * counts, self._order + kind[1])
-            return np.concatenate(
-                [rows[:, :begin], head.view(np.uint8), values.view(np.uint8), rows[:, end:]], 1
-            ).tobytes()
-        fields = self._fields(face)
-        begins = face.row_begins()
-        if text:
-            form = '%.9g' if kind[0] == 'f4' else '%.17g'
+        spans = self._spans(face)
+        row_begin, row_end = next(iter(spans.values()))[0], list(spans.values())[-1][1]
+        begin, end = spans.get('texcoord', (row_end, row_end))
+        stays, count = ~new.torn, np.diff(self.starts)
+        uv = new.corner_uv if stays.all() else new.corner_uv[np.repeat(stays, count)]
+        lead = ' ' if text and 'texcoord' not in spans else ''
+        edits = [(begin[stays], end[stays], *self._listed(uv, count[stays], kind, lead))]
+        number = b''
+        if zero and face.types.get('texnumber', ('', 1))[1] is None:
+            begin, end = spans['texnumber']
+            number = b'0' if text else bytes(np.dtype(face.types['texnumber'][0]).itemsize)
+            kept = int(stays.sum())
+            edits.append((begin[stays], end[stays], np.full(kept, len(number)),
+                          np.frombuffer(number * kept, np.uint8)))
+        of_faces = np.frombuffer(self._data, np.uint8, face.end - face.begin, face.begin)
+        if face.table is not None and stays.all():  # the same places in every row
+            old, pieces, at = of_faces.reshape(face.count, -1), [], 0
+            for begin, end, _, content in sorted(edits, key=lambda edit: edit[0][0]):
+                pieces += [old[:, at:begin[0] - face.begin], content.reshape(face.count, -1)]
+                at = end[0] - face.begin
+            return np.concatenate([*pieces, old[:, at:]], 1).tobytes()
+        rows = []
+        for p in np.flatnonzero(new.torn):
+            row = {name: self._data[b[p]:e[p]] for name, (b, e) in spans.items()}
+            if number:
+                row['texnumber'] = number
+            rows.append((self._line_end if text else b'').join(
+                self._row(row, face, new.vertices[k], new.uv[k], kind) for k in new.triangles(p)))
+        edits.append((row_begin[new.torn], row_end[new.torn], np.array([len(r) for r in rows], np.int64),
+                      np.frombuffer(b''.join(rows), np.uint8)))
+        return spliced(of_faces, *((b - face.begin, e - face.begin, *what) for b, e, *what in edits))[0]
 
-            def listed(pairs):
-                return (
-                    f'{pairs.size} ' + ' '.join([form] * pairs.size) % tuple(pairs.ravel().tolist())
-                ).encode()
-        else:
-            def listed(pairs):
-                return (np.array(pairs.size, self._order + kind[1]).tobytes() +
-                        pairs.astype(self._order + kind[0]).tobytes())
-        gap = b' ' if text else b''
-        out = []
-        starts, torn = self.starts.tolist(), new.torn
-        simple = not zero or 'texnumber' not in face.types
-        for p in range(face.count):
-            pairs = new.corner_uv[starts[p]:starts[p + 1]]
-            if not torn[p] and wide is None and simple:
-                row = self._data[begins[p]:begins[p + 1]]
-                if text:
-                    kept = row.rstrip()
-                    out += (kept, b' ', listed(pairs), row[len(kept):])
-                else:
-                    out += (row, listed(pairs))
-                continue
-            row = fields(p)
-            end = row.pop(None)
-            if zero and 'texnumber' in row:
-                row['texnumber'] = b'0' if text else bytes(len(row['texnumber']))
-            if not torn[p]:
-                row['texcoord'] = listed(pairs)
-                out += (gap.join(row.values()), end)
-                continue
-            t, l = face.types[self._indices]
-            for k in new.triangles(p):
-                row[self._indices] = (b'3 %d %d %d' % tuple(new.vertices[k]) if text else
-                                      np.array(3, self._order + l).tobytes() +
-                                      new.vertices[k].astype(self._order + t).tobytes())
-                row['texcoord'] = listed(new.uv[k])
-                out += (gap.join(row.values()), end)
-        return b''.join(out)
+    def _listed(self, uv, count, kind, lead=''):
+        """Coordinates (C, 2) of polygons with so many corners as lists: their lengths, and all as uint8."""
+        if self._order is None:
+            number = ' %.9g' if kind[0] == 'f4' else ' %.17g'
+            forms = {n: f'{lead}{2 * n}' + number * (2 * n) for n in np.unique(count).tolist()}
+            lists = '\n'.join([forms[n] for n in count.tolist()]) % tuple(uv.ravel().tolist())
+            lengths = np.array([len(one) for one in lists.split('\n')][:len(count)], np.int64)
+            return lengths, np.frombuffer(lists.replace('\n', '').encode(), np.uint8)
+        heads = (2 * count).astype(self._order + kind[1])
+        values = np.ascontiguousarray(uv, self._order + kind[0])
+        if len(count) and count.min() == count.max():
+            lists = np.concatenate([a.view(np.uint8).reshape(len(count), -1) for a in (heads, values)], 1)
+            return np.full(len(count), lists.shape[1]), lists.ravel()
+        sizes = 2 * np.dtype(kind[0]).itemsize * count
+        at, of_head = np.cumsum(sizes) - sizes, np.full(len(count), heads.itemsize)
+        lists, _ = spliced(values.view(np.uint8).ravel(), (at, at, of_head, heads.view(np.uint8)))
+        return sizes + heads.itemsize, np.frombuffer(lists, np.uint8)
 
-    def _fields(self, element):
-        """A function from a row to its bytes by property; None: what ends the row."""
-        begins, types, order = element.row_begins(), element.types, self._order
-
-        def of_text(p):
-            row = self._data[begins[p]:begins[p + 1]]
-            words, fields, at = row.split(), {}, 0
-            for name, (_, l) in types.items():
-                stop = at + 1 + (0 if l is None else int(float(words[at])))
-                fields[name], at = b' '.join(words[at:stop]), stop
-            fields[None] = row[len(row.rstrip()):] or b'\n'
-            return fields
-
-        def of_binary(p):
-            at, fields = int(begins[p]), {}
-            for name, (t, l) in types.items():
-                size = np.dtype(t).itemsize
-                if l is not None:
-                    size = np.dtype(l).itemsize + size * int(np.frombuffer(self._data, order + l, 1, at)[0])
-                fields[name], at = self._data[at:at + size], at + size
-            fields[None] = b''
-            return fields
-
-        return of_text if order is None else of_binary
+    def _row(self, row, face, vertices, uv, kind):
+        """(bytes) A row of bytes by property with another triangle."""
+        t, l = face.types[self._indices]
+        _, listed = self._listed(uv, np.array([3]), kind)
+        new = {**row, 'texcoord': listed.tobytes(), self._indices: b'3 %d %d %d' % tuple(vertices)}
+        if self._order is not None:
+            new[self._indices] = (np.array(3, self._order + l).tobytes() +
+                                  vertices.astype(self._order + t).tobytes())
+        return (b' ' if self._order is None else b'').join(new.values())
 
     def _new_vertices(self, element, new):
         """Rows of the vertices that a refinement adds: what lies at the corners of the face, mixed."""
@@ -522,16 +569,16 @@ class PlyFile(MeshFile):
                 columns[name] = mixed(np.asarray(element.columns[name])[corners], weights)
         for axis, name in enumerate('xyz'):
             columns[name] = new.points[:, axis].astype(element.types[name][0])
-        fields, rows = self._fields(element), []
+        spans, rows = self._spans(element), []
+        gap, line_end = (b' ', self._line_end) if self._order is None else (b'', b'')
         for i, vertex in enumerate(nearest):
-            row = fields(vertex)
-            end = row.pop(None)
+            row = {name: self._data[b[vertex]:e[vertex]] for name, (b, e) in spans.items()}
             for name, values in columns.items():
                 kind = element.types[name][0]
                 form = '%.9g' if kind == 'f4' else '%.17g' if kind == 'f8' else '%d'
                 row[name] = ((form % values[i]).encode() if self._order is None else
                              np.array(values[i], self._order + kind).tobytes())
-            rows.append((b' ' if self._order is None else b'').join(row.values()) + end)
+            rows.append(gap.join(row.values()) + line_end)
         return b''.join(rows)
 
 
@@ -573,7 +620,7 @@ def _colours(element):
 
 
 def plain(mesh):
-    """(bytes) A binary PLY of the mesh without texture coordinates."""
+    """(bytes) A binary PLY of the mesh's triangles, which MeshLab reads, without texture coordinates."""
     single = np.array_equal(mesh.vertices.astype('f4').astype('f8'), mesh.vertices)
     kind, word = ('<f4', 'float') if single else ('<f8', 'double')
     fields, header = [(p, kind) for p in 'xyz'], [f'property {word} {p}' for p in 'xyz']
@@ -586,19 +633,8 @@ def plain(mesh):
     if mesh.vertex_colours is not None:
         for k, p in enumerate(('red', 'green', 'blue', 'alpha')):
             table[p] = np.rint(mesh.vertex_colours[:, k] * 255)
-    corner = np.zeros(int(mesh.starts[-1]), '<i4')
-    corner[mesh.corners] = mesh.faces
-    count = np.diff(mesh.starts)
-    kind = ('<u1', 'uchar') if not len(count) or count.max() < 128 else ('<u4', 'uint')
-    if len(count) and count.min() == count.max():
-        faces = np.zeros(len(count), [('n', kind[0]), ('v', '<i4', int(count[0]))])
-        faces['n'], faces['v'] = count, corner.reshape(len(count), -1)
-        rows = faces.tobytes()
-    else:
-        heads = [n.tobytes() for n in count.astype(kind[0])]
-        starts = mesh.starts.tolist()
-        rows = b''.join(
-            chain.from_iterable((h, corner[a:b].tobytes()) for h, a, b in zip(heads, starts, starts[1:])))
+    faces = np.zeros(len(mesh.faces), [('n', 'u1'), ('v', '<i4', 3)])
+    faces['n'], faces['v'] = 3, mesh.faces
     lines = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(mesh.vertices)}', *header,
-             f'element face {len(count)}', f'property list {kind[1]} int vertex_indices', 'end_header', '']
-    return '\n'.join(lines).encode() + table.tobytes() + rows
+             f'element face {len(faces)}', 'property list uchar int vertex_indices', 'end_header', '']
+    return '\n'.join(lines).encode() + table.tobytes() + faces.tobytes()

@@ -77,6 +77,8 @@ class MeshFile:
     """(F, 3, 2) float64, NaN where a face has none; None: no face has any."""
     uv_picture = None
     """(F,) index in `pictures`, -1: none; None: no face has any."""
+    vertex_colours = face_colours = material_colours = None
+    """(V, 4), (F, 4) and (F, 4) float32, or None."""
 
     def __init__(self, path):
         self.path = Path(path)
@@ -84,9 +86,6 @@ class MeshFile:
         self.faces = np.zeros((0, 3), np.int32)  # (F, 3) triangles, in the order of the file
         self._polygons = None  # starts, corners, polygon of MeshFile.starts and so on; None: all triangles
         self.diagonals = np.zeros((0, 3), bool)  # (F, 3) side k, from corner k to k + 1, is inside a polygon
-        self.vertex_colours = None  # (V, 4) float32
-        self.face_colours = None  # (F, 4) float32
-        self.material_colours = None  # (F, 4) float32
         self.pictures = []  # Picture, read when it is asked for
         self.parts = []
         self.messages = []
@@ -120,13 +119,13 @@ class MeshFile:
         """
         corner_vertices = np.ascontiguousarray(whole(corner_vertices, np.int32))
         count = len(self.vertices)
-        if corner_vertices.size and (corner_vertices.min() < 0 or corner_vertices.max() >= count):
-            flat = corner_vertices.ravel()
-            bad = (flat < 0) | (flat >= len(self.vertices))
+        flat = corner_vertices.ravel()
+        if len(flat) and flat.view(np.uint32).max() >= count:  # below 0 are beyond, too
+            bad = (flat < 0) | (flat >= count)
             corner = int(bad.argmax())
             face = corner // 3 + 1 if starts is None else int(np.searchsorted(starts, corner, 'right'))
             raise FileError(f'{self.path.name}: {counted(int(bad.sum()), "corner")} of faces, first of face '
-                            f'{face}, name a vertex beyond the {len(self.vertices)} of the file')
+                            f'{face}, name a vertex beyond the {count} of the file')
         if starts is None or (np.diff(starts) == 3).all():
             self.faces = corner_vertices.reshape(-1, 3)
             self.diagonals = np.broadcast_to(np.False_, self.faces.shape)
@@ -173,6 +172,12 @@ class MeshFile:
             result *= factor
         return linear_to_srgb(result) if self.linear else result
 
+    def by_vertex(self, colours):
+        """(V, 4) for colours (F, 3, 4) at corners, 1 where no face is; None if those of a vertex differ."""
+        of_vertex = np.ones((len(self.vertices), 4), np.float32)
+        of_vertex[self.faces] = colours
+        return of_vertex if np.array_equal(of_vertex[self.faces], colours) else None
+
     def corner_normals(self):
         """(F, 3, 3) float32, or None where the file has no normals."""
         return None
@@ -214,6 +219,9 @@ class MeshFile:
         target = self._converted(path, plain)
         if plain.colours is not None and not target.holds(plain):
             messages.append('colours of faces: not written in this format')
+        large = int((np.diff(self.starts) > 3).sum()) if refined is None and target.all_triangles else 0
+        if large:
+            messages.append(f'{counted(large, "face")} with more than 3 corners: written as triangles')
         return messages + target._patch(path, uv, texture, None, uv_set)
 
     def holds(self, plain):
@@ -298,10 +306,7 @@ def placed(mesh, uv, refined, shows_picture):
         plain.diagonals = np.broadcast_to(np.False_, plain.faces.shape)
         plain.colours, plain.normals = (np.concatenate(a) if a else None for a in lists[3:])
     if plain.colours is not None:
-        of_vertex = np.ones((len(plain.vertices), 4), np.float32)
-        of_vertex[plain.faces] = plain.colours
-        if np.array_equal(of_vertex[plain.faces], plain.colours):
-            plain.vertex_colours = of_vertex
+        plain.vertex_colours = plain.by_vertex(plain.colours)
     return plain, uv, messages
 
 
@@ -322,7 +327,9 @@ def remarks(vertices, faces):
         messages.append(f'{counted(int((~finite).sum()), "vertex").replace("vertexs", "vertices")} with '
                         f'coordinates that are not finite numbers, first vertex {int(finite.argmin())}, '
                         f'used by {counted(used, "face")}')
-    twice = ((faces[:, 0] == faces[:, 1]) | (faces[:, 1] == faces[:, 2]) | (faces[:, 2] == faces[:, 0]))
+    twice = faces[:, 0] == faces[:, 1]
+    for k in (0, 1):
+        twice |= faces[:, k] == faces[:, 2]
     if twice.any():
         messages.append(f'{counted(int(twice.sum()), "face")} with a vertex twice, first face '
                         f'{int(twice.argmax())}: kept, without area')

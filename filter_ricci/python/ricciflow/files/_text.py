@@ -117,21 +117,28 @@ class Lines:
         return self.rest(line, 0)[:60].decode('utf-8', 'replace')
 
 
-def spliced(text, begin, end, rows, mask):
-    """`text` (uint8) with the bytes rows[k][mask[k]] in place of begin[k]:end[k], ascending and disjoint.
+def spliced(text, *edits):
+    """`text` (uint8) with other bytes in places of it.
+
+    Each of the edits is (begin, end, lengths, content): in place of text[begin[k]:end[k]] come the next
+    lengths[k] bytes of content. All places are disjoint; those of an edit with content ascend.
 
     Returns: (bytes, moved): moved(p) is where byte p of `text`, which is in no such place, has gone.
     """
-    lengths = mask.sum(1)
-    gaps = np.r_[begin, len(text)] - np.r_[0, end]
-    other = np.tile([True, False], len(gaps))[:-1]
-    spans = np.empty(len(other), np.int64)
-    spans[::2], spans[1::2] = gaps, end - begin
-    kept = text[np.repeat(other, spans)]
+    begin, end, lengths = (np.concatenate([edit[k] for edit in edits]).astype(np.int64) for k in range(3))
+    source = np.repeat(np.arange(1, len(edits) + 1, dtype=np.uint8), [len(edit[0]) for edit in edits])
+    if len(edits) > 1:
+        order = np.argsort(begin, kind='stable')
+        begin, end, lengths, source = begin[order], end[order], lengths[order], source[order]
+    spans, sources = np.empty(2 * len(begin) + 1, np.int64), np.zeros(2 * len(begin) + 1, np.uint8)
+    spans[::2], spans[1::2] = np.r_[begin, len(text)] - np.r_[0, end], end - begin
+    sources[1::2] = source
+    kept = text[np.repeat(sources == 0, spans)]
     spans[1::2] = lengths
-    new = np.repeat(~other, spans)
+    new = np.repeat(sources, spans)
     result = np.empty(len(new), np.uint8)
-    result[new], result[~new] = rows[mask], kept
+    for number, content in enumerate([kept, *(edit[3] for edit in edits)]):
+        result[new == number] = content
     grown = np.r_[0, np.cumsum(lengths - (end - begin))]
     return result.tobytes(), lambda p: int(p + grown[np.searchsorted(begin, p, 'left')])
 
@@ -164,4 +171,4 @@ def whole(values, kind=np.int64):
         values = np.where(np.isfinite(values), np.clip(values, ends.min, ends.max - (ends.max >> 53)), none)
     elif values.dtype.itemsize > ends.bits // 8 or values.dtype.kind != np.dtype(kind).kind:
         values = np.clip(values, ends.min, ends.max)
-    return values.astype(kind)
+    return values.astype(kind, copy=False)

@@ -12,7 +12,7 @@ from xml.parsers import expat
 import numpy as np
 
 from . import _pictures
-from ._shared import FileError, MeshFile, Part, distinct, rewritten, write_file
+from ._shared import FileError, MeshFile, Part, counted, distinct, rewritten, write_file
 from ._text import table
 
 _MATERIALS = 'http://schemas.microsoft.com/3dmanufacturing/material/2015/02'
@@ -42,6 +42,7 @@ class _Model:
         self.name, self.data = name, data
         self.objects, self.items, self.ids = {}, [], {0}
         self.colours, self.textures, self.groups = {}, {}, {}  # by id: (n, 4); path; (texture, (n, 2))
+        self.mixtures = {}  # by id: name of a kind that is not read
         self.first_object = None
         self._object = self._list = None
         parser = self._parser = expat.ParserCreate(namespace_separator=' ')
@@ -85,6 +86,8 @@ class _Model:
         elif tag == 'texture2dgroup':
             self._list = []
             self.groups[get('id')] = get('texid'), self._list
+        elif tag in ('multiproperties', 'compositematerials'):
+            self.mixtures[get('id')] = tag
         elif tag == 'tex2coord':
             self._list.append((float(get('u')), float(get('v'))))
         if get('id', '').isdigit() and len(get('id')) < 12:
@@ -120,7 +123,7 @@ class ThreeMfFile(MeshFile):
     # Reading
 
     def _read_meshes(self):
-        points, faces, looks, self._meshes = [], [], [], []
+        points, faces, looks, self._meshes, self._mixed = [], [], [], [], {}
         places = self._places()
         vertex_count = face_count = 0
         for model in self._models:
@@ -149,6 +152,8 @@ class ThreeMfFile(MeshFile):
             return
         self.vertices = np.concatenate(points)
         self.set_polygons(np.concatenate(faces))
+        self.messages += [f'{counted(count, "face")} with {kind}: their colours and pictures are not read'
+                          for kind, count in self._mixed.items()]
         colours, uv, pictures = (np.concatenate(a) for a in zip(*looks))
         self._colours = (
             None if np.isnan(colours).all() else np.where(np.isnan(colours), 1, colours).astype(np.float32))
@@ -174,10 +179,12 @@ class ThreeMfFile(MeshFile):
         for pid, rows in by_group.items():
             rows = np.array(rows)
             groups.setdefault(pid, []).append((rows[:, 0], rows[:, 1:]))
+        mixture = np.full(count, '', 'U20')
         for pid, entries in groups.items():
             texture, pairs = model.groups.get(pid, (None, None))
             values = np.array(model.colours.get(pid, pairs), float) if pid in model.colours or pairs else None
             for triangles, index in entries:
+                mixture[triangles] = model.mixtures.get(pid, '')
                 if values is None or not len(values) or index.min() < 0 or index.max() >= len(values):
                     continue
                 colours[triangles], uv[triangles], pictures[triangles] = np.nan, np.nan, -1
@@ -190,6 +197,9 @@ class ThreeMfFile(MeshFile):
                     if name not in self._picture_names:
                         self._picture_names.append(name)
                     pictures[triangles] = self._picture_names.index(name)
+        for kind in sorted(set(model.mixtures.values())):
+            found = int((mixture == kind).sum())
+            self._mixed.update({kind: self._mixed.get(kind, 0) + found} if found else {})
         if part.mirrored:
             colours, uv = colours[:, [0, 2, 1]], uv[:, [0, 2, 1]]
         return colours, uv, pictures
@@ -233,7 +243,7 @@ class ThreeMfFile(MeshFile):
             if not kind:
                 picture = _pictures.decode(content, Path(texture).name)
                 kind, content = 'png', _pictures.encode_png(picture)
-        elif self.corner_colours() is not None or self.uv is not None:
+        elif self.corner_colours() is not None or self.uv is not None or self._mixed:
             messages.append(
                 'the colours and pictures of the 3MF give way to the coordinates, which show a white '
                 'picture')
