@@ -117,15 +117,22 @@ enum class At : char { Between, Crease, Boundary };
 
 } // namespace
 
+Array<Point3>
+normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+{
+	Array<Point3> normals;
+	for (const Triangle& t : triangles)
+		normals.push_back(normal(
+			positions[positionOf(t[0])], positions[positionOf(t[1])], positions[positionOf(t[2])]));
+	return normals;
+}
+
 Array<Point3> normalsOf(
 	const std::vector<Point3>& positions,
 	const std::vector<Triangle>& triangles,
 	const CornerArray<Corner>& across)
 {
-	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
-	Array<Point3> normals;
-	for (const Triangle& t : triangles)
-		normals.push_back(normal(at(t[0]), at(t[1]), at(t[2])));
+	Array<Point3> normals = normalsOf(positions, triangles);
 	const auto has = [&](int f) { return dot(normals[f], normals[f]) > 0.0; };
 	const auto isLongest = [&](Corner side) {
 		const std::array<double, 3> l = sideLengths(triangles[positionOf(side.face())], positions);
@@ -169,7 +176,7 @@ Creases creases(
 	double angle)
 {
 	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
-	const Array<Point3> normals = normalsOf(positions, triangles, sides.across());
+	const Array<Point3> normals = normalsOf(positions, triangles);
 	Creases result;
 	result.sides.resize(triangles.size(), {0, 0, 0});
 	Array<At> where(static_cast<int>(positions.size()), At::Between);

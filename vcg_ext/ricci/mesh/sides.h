@@ -28,7 +28,6 @@ public:
 
 	/// The other side of an edge that has two, which run in opposite directions; else none.
 	Corner across(Corner side) const { return m_across[side]; }
-	const CornerArray<Corner>& across() const { return m_across; }
 
 private:
 	Array<Corner> m_sides;        // by edge
@@ -36,9 +35,13 @@ private:
 	CornerArray<Corner> m_across; // [side]
 };
 
-/// [triangle] Normals of length 1. A triangle too thin to have one (kThinTriangle) lies in the plane of the triangle
-/// across its longest side, or if that has none, of another beside it: so a crease that passes it runs along one of its
-/// sides. 0 where none is connected to a triangle with a normal.
+/// [triangle] Normals of length 1; 0 where a triangle is too thin to have one (kThinTriangle).
+Array<Point3>
+normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
+
+/// The same, but a thin triangle lies in the plane of the triangle across its longest side, or if that has none, of
+/// another beside it: so a crease that passes it runs along one of its sides. 0 where none is connected to a triangle
+/// with a normal.
 /// \param across [side] the other side of the edge, or none; it starts at the same vertex if its triangle has the
 /// opposite orientation
 Array<Point3> normalsOf(
@@ -63,8 +66,8 @@ struct Creases
 };
 
 /// \param positions, triangles, sides of an oriented manifold
-/// \param angle radians between the normals of the two triangles at an edge, above which it is a crease, see
-/// normalsOf()
+/// \param angle radians between the normals of the two triangles at an edge, above which it is a crease.
+/// Edges of a triangle so thin that it has no normal are none.
 Creases creases(
 	const std::vector<Point3>& positions,
 	const std::vector<Triangle>& triangles,
