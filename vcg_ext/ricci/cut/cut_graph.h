@@ -121,7 +121,7 @@ EdgeArray<double> seamCost(
 /// divided only where no other path goes round it.
 constexpr double kDiagonalFactor = 1e3;
 
-/// Raises the cost of seams by kDiagonalFactor.
+/// Multiplies the cost of seams along diagonals of polygons by kDiagonalFactor.
 /// \param isDiagonal see FlowDomain; may be empty
 void avoidDiagonals(const EdgeArray<char>& isDiagonal, EdgeArray<double>& cost);
 

@@ -138,8 +138,8 @@ Array<Point3> normalsOf(
 		const std::array<double, 3> l = sideLengths(triangles[positionOf(side.face())], positions);
 		return l[side.index()] == *std::max_element(l.begin(), l.end());
 	};
-	std::vector<Corner> longest,
-		others; // sides of triangles without a normal, next to one that has it
+	// Sides of triangles without a normal, across from one that has it.
+	std::vector<Corner> longest, others;
 	const auto reach = [&](Corner side) {
 		const Corner other = across[side];
 		if (other.isValid() && !has(other.face()))
