@@ -204,6 +204,18 @@ std::vector<Refusal> options()
 			with([=](Options& o) { o.chartMargin = x; }),
 			E(E::ChartMargin, x, kMaxChartMargin),
 			"between 0 and 0.25");
+	for (const double x : {-1.0, kNaN, kInfinity})
+		add("TileSide",
+			with([=](Options& o) { o.tileSide = x; }),
+			E(E::TileSide, x),
+			"must be 0, or finite");
+	add("TilesInOwnScale",
+		with([](Options& o) {
+			o.tileSide = 1.0;
+			o.normalizeUV = false;
+		}),
+		E(E::TilesInOwnScale),
+		"cannot keep the scale");
 	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston}) {
 		const bool isKept = method == Method::FixedTriangles;
 		const char* words = "The common refinement and capped holes need intrinsic flips";

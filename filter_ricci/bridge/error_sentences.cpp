@@ -99,6 +99,15 @@ std::string inWords(const ricci::InvalidOption& e)
 			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";
 	case Error::SeamHiding:
 		return number("seam_hiding", "a number from 0 to 1");
+	case Error::TileSide:
+		return "With this {texel_density} a tile is " + numberText(e.value, 4) +
+			   " units of length wide, but a chart that cannot be cut, or the " +
+			   std::to_string(ricci::kMaxTiles) + " tiles at most, need " + numberText(e.bound, 4) +
+			   ": lower {texel_density} to " + numberText(100.0 * e.value / e.bound, 3) +
+			   " % of what it is, or raise {texture_size}.";
+	case Error::TilesInOwnScale:
+		return "{texel_density} divides the layout into tiles of the unit square: choose "
+			   "{normalize_uv}, or leave {texel_density} 0.";
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
 			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";

@@ -70,6 +70,9 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 	differ by quarter turns.
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
+- texel_density = 0 | Texels per unit of length | float
+	Lay charts at this density into UDIM tiles of 'Texture size', as many as they need; larger charts are cut. 0: one
+	square.
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
 	<b>None</b>: charts do not rotate, and are not cut for packing. <b>Right angles</b>: straight ones upright, others by 90
 	degrees.
@@ -430,6 +433,17 @@ Settings readSettings(const Parameters& par)
 					   : settings.texture.file.empty() ? TextureSettings().size
 													   : kMaxTextureSize;
 	const int most = static_cast<int>(ricci::kMaxChartMargin * texels);
+	const auto density = valueOf<double>(par, "texel_density");
+	if (!(density >= 0.0 && density <= std::numeric_limits<float>::max()))
+		throw Refusal(unusable(
+			ricci::numberText(density, 6), "texel_density", "texels per unit of length, or 0"));
+	if (density > 0.0) {
+		if (!settings.texture.file.empty())
+			throw Refusal(
+				"{carry_texture} draws a single square: leave it empty, or {texel_density} 0.");
+		settings.flow.tileSide =
+			(settings.texture.size > 0 ? settings.texture.size : TextureSettings().size) / density;
+	}
 	settings.padding = checked(par, "padding", 0, most, "pixels, a quarter of {texture_size}");
 	readChoice(par, "holes", settings.flow.holes);
 	int layers = 0;

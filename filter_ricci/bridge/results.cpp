@@ -95,6 +95,7 @@ Results toResults(const ricci::Report& report)
 		{"seam_length", report.seamLength, "Length of the other seams"},
 		{"seam_length_relative", report.seamLengthRelative, "The same over the root of the area"},
 		{"charts", report.charts, "Charts"},
+		{"tiles", report.tiles, "Tiles, the squares that hold the charts"},
 		{"occupancy", report.occupancy, "Packing efficiency (share of the square covered)"},
 		{"capped_holes", report.cappedHoles, "Holes capped"},
 		{"overlapping_charts", report.overlappingCharts, "Charts that overlap"},
@@ -181,12 +182,13 @@ std::string toSentence(int filter, const Results& results)
 	};
 	const int charts = resultOf<int>(results, "charts");
 	const int overlapping = resultOf<int>(results, "overlapping_faces");
+	const int tiles = resultOf<int>(results, "tiles");
 	std::string text =
 		filter == Hyperbolic
 			? count(charts, "chart") + " in the unit disk"
 			: count(charts, "chart") + " (UV islands) " + (charts == 1 ? "fills " : "fill ") +
 				  std::to_string(std::lround(100.0 * resultOf<double>(results, "occupancy"))) +
-				  " % of the square";
+				  " % of " + (tiles > 1 ? std::to_string(tiles) + " tiles" : "the square");
 	text +=
 		", with " + count(resultOf<int>(results, "cones"), "cone") +
 		(overlapping > 0 ? ", " + count(overlapping, "overlapping face") : "") + " and " +
@@ -261,7 +263,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 			(isAutomatic || is("target_curvature", 6)
 				 ? "{cone_distortion} 0.25 adds cones, which reduce this."
 				 : "The target 'Automatic' places cones, which reduce this."));
-	if (occupancy < kDoubtfulOccupancy)
+	if (occupancy < kDoubtfulOccupancy && valueOf<double>(par, "texel_density") == 0.0)
 		lines.push_back(
 			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
@@ -287,7 +289,8 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 			lines.push_back("{" + id + "} has no effect: " + why);
 	};
 	if (valueOf<std::string>(par, "carry_texture").empty()) {
-		const bool isPadded = filter == Euclidean && valueOf<int>(par, "padding") > 0;
+		const bool isPadded = filter == Euclidean && (valueOf<int>(par, "padding") > 0 ||
+													  valueOf<double>(par, "texel_density") > 0.0);
 		tell("texture_size", !isPadded, "{carry_texture} is empty.");
 		tell("texture_size", isPadded && is("texture_size", 0), "{padding} is of 2048 pixels.");
 	}

@@ -117,6 +117,7 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::ConeDistortion, {"-17"}},
 		{InvalidOption::SeamHiding, {"-17"}},
 		{InvalidOption::ChartMargin, {"-17", "23"}},
+		{InvalidOption::TileSide, {"-17", "23"}},
 		{InvalidOption::ConeAngle, {"-974.0"}},
 		{InvalidOption::TooFewCones, {"-17", "23"}},
 		{InvalidOption::TooFewVertices, {"-17", "61"}},

@@ -92,8 +92,8 @@ Options packing(double margin, bool normalize = true)
 	return options;
 }
 
-/// Least distance of two sides of the borders of different charts, and of all points from the border of the unit
-/// square.
+/// Least distance of two sides of the borders of different charts, and of all points from the border of the square
+/// in which their chart lies.
 double leastDistance(const Parametrization& map)
 {
 	FlatMesh mesh = map.mesh;
@@ -109,8 +109,11 @@ double leastDistance(const Parametrization& map)
 	for (const int f : mesh.points.indices())
 		for (const Corner c : cornersOf(f)) {
 			const auto [from, to] = mesh.ends(c);
-			for (const double x : from)
+			const Point2 middle = map.charts[at(mesh.chart[f])].box.centre();
+			for (std::size_t k = 0; k < 2; ++k) {
+				const double x = from[k] - std::floor(middle[k]);
 				least = std::min({least, x, 1.0 - x});
+			}
 			if (mesh.joined(c).isValid())
 				continue;
 			sides.push_back({mesh.chart[f], from, to, {}});
@@ -159,8 +162,8 @@ double expectPacked(const SurfaceMesh& mesh, const Parametrization& map, std::si
 		whole.add(chart.box.max);
 	}
 	const double side = whole.extent();
-	if (whole.max[0] <= 1.0 && whole.max[1] <= 1.0) {
-		EXPECT_NEAR(map.report.occupancy, area, 1e-9);
+	if (map.report.tiles > 1 || (whole.max[0] <= 1.0 && whole.max[1] <= 1.0)) {
+		EXPECT_NEAR(map.report.occupancy, area / map.report.tiles, 1e-9);
 	}
 	else {
 		EXPECT_LE(map.report.occupancy, area / (side * side) * (1.0 + 1e-9));
@@ -481,6 +484,97 @@ TEST(Packing, GivesEachDiskASquareOfItsOwn)
 			for (const Point2& p : map.mesh.at(f))
 				EXPECT_LT(distance(p, box.centre()), 0.5 * side);
 		}
+	}
+}
+
+/// Options with which charts lie in tiles.
+Options inTiles(double side, double margin, Charts charts)
+{
+	Options options = packing(margin);
+	options.charts = charts;
+	options.tileSide = side;
+	return options;
+}
+
+/// Every chart lies in one of the tiles, all of which are used, as far from its border as from others.
+void expectInTiles(const Parametrization& map, double margin)
+{
+	std::vector<char> isUsed(at(map.report.tiles), 0);
+	for (const Chart& chart : map.charts) {
+		const Point2 middle = chart.box.centre();
+		ASSERT_LT(middle[0], kTilesInRow);
+		const double tile = std::floor(middle[0]) + kTilesInRow * std::floor(middle[1]);
+		ASSERT_LT(tile, map.report.tiles);
+		isUsed[at(static_cast<int>(tile))] = 1;
+	}
+	EXPECT_EQ(std::count(isUsed.begin(), isUsed.end(), 1), map.report.tiles);
+	EXPECT_GE(leastDistance(map), margin - 1e-6); // floats of 8 and more differ by 1e-6
+}
+
+TEST(Tiles, HoldChartsAtTheScaleThatIsAskedFor)
+{
+	Random random(811);
+	for (const int tiles : {1, 4, 25})
+		for (const double margin : {0.0, 0.002, 0.02}) {
+			SCOPED_TRACE(
+				std::to_string(tiles) + " tiles with the margin " + std::to_string(margin));
+			const SurfaceMesh mesh = stars(120, 1.0, random);
+			const double area = areaOf(mesh);
+			// The largest star, of radius 1, has to fit.
+			const double side = std::max(2.2, std::sqrt(1.3 * area / tiles));
+			const Parametrization map =
+				parametrizeEuclidean(mesh, {}, inTiles(side, margin, Charts::OfTheFlow));
+			EXPECT_NEAR(expectPacked(mesh, map, 120) * side, 1.0, 1e-6);
+			expectInTiles(map, margin);
+			EXPECT_GT(map.report.occupancy, 0.35);
+			EXPECT_EQ(map.report.overlapCuts, 0);
+		}
+}
+
+TEST(Tiles, TakeChartsInPiecesThatAreTooLong)
+{
+	const SurfaceMesh mesh = rectangle(48, 24, 9.6, 4.8);
+	for (const double side : {1.7, 3.0, 6.0}) {
+		SCOPED_TRACE(side);
+		const Parametrization map =
+			parametrizeEuclidean(mesh, {}, inTiles(side, 0.01, Charts::WithoutOverlap));
+		EXPECT_NEAR(expectPacked(mesh, map, map.charts.size()) * side, 1.0, 1e-6);
+		expectInTiles(map, 0.01);
+		// Straight cuts into as few pieces as hold all of it.
+		const double room = 0.98 * side, x = std::ceil(9.6 / room), y = std::ceil(4.8 / room);
+		EXPECT_EQ(map.charts.size(), x * y);
+		EXPECT_NEAR(map.report.seamLength, (x - 1) * 4.8 + (y - 1) * 9.6, 1e-9);
+	}
+}
+
+TEST(Tiles, AreNotCutForWhereOneHoldsAll)
+{
+	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 12);
+	Options options;
+	const Parametrization whole = parametrizeEuclidean(mesh, {}, options);
+	options.tileSide = 100.0;
+	const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+	EXPECT_EQ(map.report.tiles, 1);
+	EXPECT_LE(map.charts.size(), whole.charts.size());
+	EXPECT_NEAR(map.report.occupancy, areaOf(mesh) / 1e4, 1e-9);
+}
+
+/// The side that a refusal names is enough.
+TEST(Tiles, ThatAreTooSmallAreRefusedWithASideThatIsEnough)
+{
+	const SurfaceMesh mesh = rectangle(20, 20, 20.0, 20.0);
+	Options disk = inTiles(5.0, 0.02, Charts::OfTheFlow);
+	disk.target = TargetCurvature::Disk;
+	for (Options options : {disk, inTiles(1.5, 0.02, Charts::WithoutOverlap)}) {
+		const auto refusal =
+			refusalOf<InvalidOption>([&] { parametrizeEuclidean(mesh, {}, options); });
+		EXPECT_EQ(refusal.problem, InvalidOption::TileSide);
+		EXPECT_EQ(refusal.value, options.tileSide);
+		ASSERT_GT(refusal.bound, options.tileSide);
+		options.tileSide = refusal.bound * (1.0 + 1e-9);
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		expectInTiles(map, 0.02);
+		EXPECT_EQ(map.report.tiles == 1, options.target == TargetCurvature::Disk);
 	}
 }
 

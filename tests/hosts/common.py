@@ -24,7 +24,7 @@ ALWAYS = {
     "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,
     "degenerate_faces": int, "cones": int, "chosen_seam_edges": int,
     "chosen_seam_length": float, "seam_edges": int,
-    "seam_length": float, "seam_length_relative": float, "charts": int,
+    "seam_length": float, "seam_length_relative": float, "charts": int, "tiles": int,
     "occupancy": float, "padding_pixels": float, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "unequal_seams": int, "overlap_cuts": int}
 
@@ -72,7 +72,7 @@ COMMONLY_RARE = [
     ("sharp_angle", "Float", 30.0), ("join_vertices", "Enum", 0), ("colorize", "Bool", False),
     ("report", "String", ""), ("time_limit", "Float", 0.0)]
 RARE = [("cone_count", "Int", 0), ("cone_rounding", "Enum", 0), ("seam_hiding", "Float", 0.0),
-        ("chart_rotation", "Enum", 2), *COMMONLY_RARE]
+        ("texel_density", "Float", 0.0), ("chart_rotation", "Enum", 2), *COMMONLY_RARE]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",

@@ -568,6 +568,34 @@ class Functions(unittest.TestCase):
                 scale = numpy.ptp(real.uv) / numpy.ptp(fitted.uv)
                 self.assertLess(numpy.abs(real.uv - scale * fitted.uv).max(), 1e-5 * scale)
 
+    def test_tiles_have_the_texels_that_are_asked_for(self):
+        vertices, faces = (numpy.asarray(a) for a in arrays(meshes.torus()))
+        sides = vertices[faces[:, 1:]] - vertices[faces[:, :1]]
+        area = numpy.linalg.norm(numpy.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2
+        density = 256 * numpy.sqrt(6 / area)  # six full tiles of 256 texels
+        result = flatten(vertices, faces, texel_density=density, texture_size=256, padding=3)
+        tile = numpy.floor(result.uv.mean(axis=1))
+        self.assertEqual(set(map(tuple, tile.astype(int))),
+                         {(i % 10, i // 10) for i in range(result.tiles)})
+        inside = result.uv - tile[:, None]
+        self.assertGreaterEqual(min(inside.min(), 1 - inside.max()), 3 / 256 - 1e-6)
+        sides = result.uv[:, 1:] - result.uv[:, :1]
+        drawn = (sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]).sum() / 2
+        self.assertAlmostEqual(256 * numpy.sqrt(drawn / area) / density, 1.0, delta=1e-5)
+        self.assertAlmostEqual(result.occupancy, drawn / result.tiles, delta=1e-5)
+        self.assertRegex("\n".join(result.log), f" % of {result.tiles} tiles, with ")
+        for problem, values, words in (
+                (ValueError, {"texel_density": -1.0}, "-1 of texel_density cannot be used"),
+                (ricciflow.Refused, {"normalize_uv": False}, "choose normalize_uv"),
+                (ricciflow.Refused, {"carry_texture": "new.png"}, "draws a single square")):
+            with self.assertRaisesRegex(problem, words):
+                flatten(vertices, faces, **{"texel_density": density, **values})
+        with self.assertRaisesRegex(ricciflow.Refused, "lower texel_density to") as refusal:
+            flatten(vertices, faces, texel_density=100 * density, texture_size=256)
+        share = float(re.search(r"to ([\d.]+) %", str(refusal.exception))[1]) / 100
+        self.assertGreater(
+            flatten(vertices, faces, texel_density=share * 100 * density, texture_size=256).tiles, 40)
+
     def test_no_sphere_layer_of_another_surface(self):
         for mesh in (meshes.torus(), meshes.hill()):
             with self.assertWarnsRegex(ricciflow.RicciWarning, "genus 0.*no sphere layer"):

@@ -154,6 +154,9 @@ inline ConeGoal goalOf(const ConeOptions& options)
 /// The widest margin that charts are packed with.
 constexpr double kMaxChartMargin = 0.25;
 
+/// Tiles side by side, and at most.
+constexpr int kTilesInRow = 10, kMaxTiles = 100;
+
 /// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
 /// \p padding >= 0 between any two. One box alone stays where it is. Neither turns nor scales. As many translations
 /// as boxes, or the run ends with InvalidOption BoxPlaces.
@@ -175,7 +178,7 @@ struct PackOptions
 	/// length).
 	bool normalizeUV = true;
 
-	/// Least distance of two charts, and of a chart from the border of the square that holds all, as a
+	/// Least distance of two charts, and of a chart from the border of the square that holds all, or of its tile, as a
 	/// share of its side, between 0 and kMaxChartMargin. Less where so many charts do not fit with it: Report::margin.
 	double chartMargin = 0.0;
 
@@ -184,6 +187,12 @@ struct PackOptions
 
 	/// Close together in about a square where there is none, see sideBySide().
 	PlaceBoxes placeBoxes;
+
+	/// Side of a tile, in the unit of the surface's lengths: the charts, which together have the surface's area, are
+	/// packed into as many tiles as they need, and those that are too long for one are cut if they may be. Tile n is
+	/// the square from (n mod kTilesInRow, n / kTilesInRow), of side 1: UDIM 1001 + n. 0: one square that holds all
+	/// charts.
+	double tileSide = 0.0;
 };
 
 /// What the target of the Euclidean flow is chosen by.

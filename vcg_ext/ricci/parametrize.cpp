@@ -216,8 +216,10 @@ void pack(const Options& options, WholeMap& whole)
 	Parametrization& map = whole.map;
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	const bool mayCut = options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
-						options.target == TargetCurvature::Automatic;
+	const bool cutsForTiles = options.tileSide > 0.0 && mayCutCharts(options);
+	const bool mayCut =
+		cutsForTiles || (options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
+						 options.target == TargetCurvature::Automatic);
 	packCharts(map, options, turns, mayCut);
 	advance(kMapped, "Finishing the coordinates");
 	if (!isFinished(options))
@@ -234,7 +236,7 @@ void pack(const Options& options, WholeMap& whole)
 		map.report.finishMoved += repair.moved;
 		isChanged = isChanged || repair.moved > 0 || repair.needsPacking;
 		if (repair.needsPacking)
-			packCharts(map, options, turns);
+			packCharts(map, options, turns, cutsForTiles);
 	}
 	if (isChanged)
 		measureInPlane(whole);
@@ -292,6 +294,10 @@ void checkOptions(const Options& options)
 	if (!(options.cones.distortion >= 0.0 && std::isfinite(options.cones.distortion)))
 		throw InvalidOption(InvalidOption::ConeDistortion, options.cones.distortion);
 	checkChartMargin(options.chartMargin);
+	if (!(options.tileSide >= 0.0 && std::isfinite(options.tileSide)))
+		throw InvalidOption(InvalidOption::TileSide, options.tileSide);
+	if (options.tileSide > 0.0 && !options.normalizeUV)
+		throw InvalidOption(InvalidOption::TilesInOwnScale);
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
 		throw InvalidOption(InvalidOption::SeamHiding, options.seamHiding);
 }

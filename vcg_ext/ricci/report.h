@@ -148,8 +148,10 @@ struct Report : FlowReport, InvariantReport, DistortionReport
 	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
 	/// cannot hold in their chart. Where parts are joined elsewhere, seamEdges get fewer.
 	int overlapCuts = 0;
-	/// Share of the unit square, or of the square that holds all charts and their margins where they keep
-	/// their scale, that the charts cover. Known once they are packed.
+	/// Squares that the charts are packed into, see PackOptions::tileSide.
+	int tiles = 1;
+	/// Share of the unit square, or of all tiles, or of the square that holds all charts and their margins where they
+	/// keep their scale, that the charts cover. Known once they are packed.
 	double occupancy = 0.0;
 	/// Options::chartMargin as it came out.
 	double margin = 0.0;

@@ -17,7 +17,7 @@ namespace ricci {
 /// Texture coordinates of a mesh.
 struct TextureCoordinates
 {
-	/// In [0,1]^2, unless Options::normalizeUV is off. A vertex has one for each chart, and for each side of a seam.
+	/// In [0,1]^2, unless Options::normalizeUV is off or Options::tileSide is set. A vertex has one for each chart, and for each side of a seam.
 	std::vector<std::array<double, 2>> uv;
 
 	/// [triangle][corner] into uv. Those of the mesh, in its order and with its corners; with CommonRefinement pieces of

@@ -165,19 +165,21 @@ class Flattening(Parametrization):
     """components cut along short one-sided loops"""
     degenerate_faces: int
     """faces drawn as a segment or a point"""
-    cones: int
-    """interior vertices that are not flat"""
     chosen_seam_edges: int
     """edges opened by seams, without those on its border"""
     chosen_seam_length: float
     """their length on the mesh"""
+    cones: int
+    """interior vertices that are not flat"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
     """charts (UV islands)"""
+    tiles: int
+    """UDIM tiles that hold them (1 without texel_density)"""
     occupancy: float
-    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
-    around all charts) that the charts cover"""
+    """packing efficiency: fraction of the unit square or of all tiles (without normalize_uv, of
+    the square around all charts) that the charts cover"""
     padding_pixels: float
     """padding between charts and to the border of that square, in pixels of texture_size"""
     capped_holes: int
@@ -319,19 +321,21 @@ class Uniformization(Parametrization):
     """components cut along short one-sided loops"""
     degenerate_faces: int
     """faces drawn as a segment or a point"""
-    cones: int
-    """interior vertices that are not flat"""
     chosen_seam_edges: int
     """edges opened by seams, without those on its border"""
     chosen_seam_length: float
     """their length on the mesh"""
+    cones: int
+    """interior vertices that are not flat"""
     seam_edges: int
     """further edges of the input along which the mesh is cut"""
     charts: int
     """charts (UV islands)"""
+    tiles: int
+    """UDIM tiles that hold them (1 without texel_density)"""
     occupancy: float
-    """packing efficiency: fraction of the unit square (without normalize_uv, of the square
-    around all charts) that the charts cover"""
+    """packing efficiency: fraction of the unit square or of all tiles (without normalize_uv, of
+    the square around all charts) that the charts cover"""
     padding_pixels: float
     """padding between charts and to the border of that square, in pixels of texture_size"""
     capped_holes: int
@@ -482,6 +486,7 @@ def flatten(
         'Multiples of pi/2',
     ]] = 'Free',
     seam_hiding: float = 0.0,
+    texel_density: float = 0.0,
     chart_rotation: Union[int, Literal[
         'None',
         'Right angles',
@@ -534,6 +539,8 @@ def flatten(
         remeshing, whose seams differ by quarter turns.
     seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
         ten times longer).
+    texel_density: Lay charts at this density into UDIM tiles of 'Texture size', as many as they
+        need; larger charts are cut. 0: one square.
     chart_rotation: None: charts do not rotate, and are not cut for packing. Right angles:
         straight ones upright, others by 90 degrees.
     sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.

@@ -85,14 +85,15 @@ EUCLIDEAN_RESULTS = \
  'duplicate_faces': ('int', 'faces that duplicate another, each a separate sheet'),
  'one_sided_components': ('int', 'components cut along short one-sided loops'),
  'degenerate_faces': ('int', 'faces drawn as a segment or a point'),
- 'cones': ('int', 'interior vertices that are not flat'),
  'chosen_seam_edges': ('int', 'edges opened by seams, without those on its border'),
  'chosen_seam_length': ('float', 'their length on the mesh'),
+ 'cones': ('int', 'interior vertices that are not flat'),
  'seam_edges': ('int', 'further edges of the input along which the mesh is cut'),
  'charts': ('int', 'charts (UV islands)'),
+ 'tiles': ('int', 'UDIM tiles that hold them (1 without texel_density)'),
  'occupancy': ('float',
-               'packing efficiency: fraction of the unit square (without normalize_uv, of the '
-               'square around all charts) that the charts cover'),
+               'packing efficiency: fraction of the unit square or of all tiles (without '
+               'normalize_uv, of the square around all charts) that the charts cover'),
  'padding_pixels': ('float',
                     'padding between charts and to the border of that square, in pixels of '
                     'texture_size'),

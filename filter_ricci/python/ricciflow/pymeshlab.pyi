@@ -80,6 +80,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Multiples of pi/2',
         ]] = 'Free',
         seam_hiding: float = 0.0,
+        texel_density: float = 0.0,
         chart_rotation: Union[int, Literal[
             'None',
             'Right angles',

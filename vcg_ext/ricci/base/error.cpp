@@ -95,6 +95,12 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::ChartMargin:
 		return "The margin between charts must be between 0 and " + number(e.bound) + ", not " +
 			   number(e.value);
+	case InvalidOption::TileSide:
+		return "The side of tiles must be 0, or finite and at least " + number(e.bound) + ", not " +
+			   number(e.value);
+	case InvalidOption::TilesInOwnScale:
+		return "Tiles are squares of side 1, in which coordinates cannot keep the scale of the "
+			   "mesh";
 	case InvalidOption::WithoutFlips:
 		return "The common refinement and capped holes need intrinsic flips";
 	case InvalidOption::WithoutPositions:

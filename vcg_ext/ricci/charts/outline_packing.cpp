@@ -6,23 +6,19 @@
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "boxes_side_by_side.h"
+#include "outline_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
 
 namespace {
-
-constexpr int kWordBits = 64;
 
 /// Cells along a side of the square in which places are sought: at least, at most, and times the root of the number of
 /// outlines; and cells in place of one of them, in which places are found.
@@ -43,318 +39,6 @@ constexpr int kSlack = 4;
 
 /// Rows of cells compared after which no further order is tried.
 constexpr long long kMaxWork = 2'000'000;
-
-/// Rows of cells, a bit for each that is taken, and bits that stay free at the end.
-class Rows
-{
-public:
-	Rows(int rows, int cells) : m_words(cells / kWordBits + 2), m_bits(positionOf(rows * m_words))
-	{
-	}
-
-	std::uint64_t* operator[](int row) { return m_bits.data() + positionOf(row * m_words); }
-	const std::uint64_t* operator[](int row) const
-	{
-		return m_bits.data() + positionOf(row * m_words);
-	}
-	void clear(int rows) { std::fill_n(m_bits.begin(), rows * m_words, 0); }
-
-private:
-	int m_words;
-	std::vector<std::uint64_t> m_bits;
-};
-
-/// 64 cells of a row from one of those in \p word on.
-std::uint64_t bitsFrom(const std::uint64_t* word, int bit)
-{
-	return word[0] >> bit | word[1] << 1 << (kWordBits - 1 - bit);
-}
-
-void fill(std::uint64_t* row, int first, int last)
-{
-	for (int x = first; x < last;) {
-		const int bit = x % kWordBits, count = std::min(kWordBits - bit, last - x);
-		const std::uint64_t ones =
-			count == kWordBits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-		row[x / kWordBits] |= ones << bit;
-		x += count;
-	}
-}
-
-/// Place of the lowest bit of \p word, which is not 0: the exponent of a double.
-int lowestBit(std::uint64_t word)
-{
-	const auto lowest = static_cast<double>(word & (~word + 1));
-	std::uint64_t bits;
-	std::memcpy(&bits, &lowest, sizeof bits);
-	return static_cast<int>(bits >> 52) - 1023;
-}
-
-/// The first cell from \p x to before \p end that is taken or that is free, or \p end.
-int nextCell(const std::uint64_t* row, int x, int end, bool taken)
-{
-	while (x < end) {
-		const std::uint64_t word = row[x / kWordBits];
-		const std::uint64_t rest = (taken ? word : ~word) >> (x % kWordBits);
-		if (rest != 0)
-			return std::min(x + lowestBit(rest), end);
-		x += kWordBits - x % kWordBits;
-	}
-	return end;
-}
-
-/// Cells of one row, from first to before last.
-struct Run
-{
-	int row, first, last;
-	int level; ///< two runs of 2^level cells cover it, one from its first, one to its last cell
-};
-
-/// An outline that is turned, in cells from the lower left corner of a box round it.
-struct Shape
-{
-	Motion motion; ///< brings that corner to the origin
-	int width = 0, height = 0;
-	int x = 0, y = 0;      ///< of the middle of its area
-	int size = 0;          ///< the same for areas that differ by less than a fifth
-	std::vector<Run> runs; ///< longest first
-
-	int extent() const { return std::max(width, height); }
-};
-
-/// Draws outlines in cells, in buffers that it keeps.
-class Drawing
-{
-public:
-	/// \param reach taken, too: what is nearer than this along both axes
-	Drawing(int cells, double side, double reach) :
-			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells)
-	{
-	}
-
-	double cell() const { return m_cell; }
-
-	/// \return whether it fits into the square
-	bool draw(const Outline& outline, std::complex<double> turn, Shape& shape)
-	{
-		shape.motion = {turn, {0.0, 0.0}};
-		m_sides.clear();
-		Box2 box;
-		for (const auto& side : outline) {
-			m_sides.push_back({shape.motion(side[0]), shape.motion(side[1])});
-			box.add(m_sides.back()[0]);
-		}
-		const double reach = m_reach * m_cell;
-		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
-		shape.width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
-		shape.height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
-		if (shape.extent() > m_cells)
-			return false;
-		m_rows.clear(shape.height);
-		for (auto& side : m_sides) {
-			for (Point2& p : side)
-				p = {
-					(p[0] + shape.motion.shift.real()) / m_cell,
-					(p[1] + shape.motion.shift.imag()) / m_cell};
-			drawSide(side, shape);
-		}
-		fillBetween();
-		findRuns(shape);
-		return true;
-	}
-
-private:
-	/// The first one where \p x is negative.
-	static int cellAt(double x) { return static_cast<int>(std::max(x, 0.0)); }
-
-	void drawSide(const std::array<Point2, 2>& side, const Shape& shape)
-	{
-		const bool up = side[0][1] < side[1][1];
-		const Point2 &low = up ? side[0] : side[1], &high = up ? side[1] : side[0];
-		const double slope = high[1] > low[1] ? (high[0] - low[0]) / (high[1] - low[1]) : 0.0;
-		const auto xAt = [&](double y) {
-			return y <= low[1] ? low[0] : y >= high[1] ? high[0] : low[0] + slope * (y - low[1]);
-		};
-		const int last = std::min(cellAt(high[1] + m_reach), shape.height - 1);
-		for (int y = cellAt(low[1] - m_reach); y <= last; ++y) {
-			double from = xAt(y - m_reach), to = xAt(y + 1 + m_reach);
-			if (low[1] == high[1]) {
-				from = low[0];
-				to = high[0];
-			}
-			fill(
-				m_rows[y],
-				cellAt(std::min(from, to) - m_reach),
-				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
-			const double middle = y + 0.5;
-			if (low[1] <= middle && middle < high[1])
-				m_crossings.emplace_back(y, xAt(middle), up ? -1 : 1);
-		}
-	}
-
-	void fillBetween()
-	{
-		std::sort(m_crossings.begin(), m_crossings.end());
-		int turns = 0; // 0 again at the end of each row
-		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
-			const auto& [row, x, turn] = m_crossings[i];
-			const auto& next = m_crossings[i + 1];
-			turns = row == std::get<0>(next) ? turns + turn : 0;
-			if (turns != 0)
-				fill(m_rows[row], cellAt(x), cellAt(std::get<1>(next)) + 1);
-		}
-		m_crossings.clear();
-	}
-
-	void findRuns(Shape& shape)
-	{
-		m_runs.clear();
-		m_longer.assign(positionOf(m_cells + 1), 0);
-		for (int y = 0; y < shape.height; ++y) {
-			for (int last = 0;;) {
-				const int first = nextCell(m_rows[y], last, shape.width, true);
-				if (first == shape.width)
-					break;
-				last = nextCell(m_rows[y], first, shape.width, false);
-				m_runs.push_back({y, first, last, std::ilogb(last - first)});
-				++m_longer[positionOf(last - first - 1)];
-			}
-		}
-		double area = 0.0, x = 0.0, y = 0.0; // whole numbers
-		for (const Run& run : m_runs) {
-			const double length = run.last - run.first;
-			area += length;
-			x += length * (run.first + run.last);
-			y += length * run.row;
-		}
-		shape.x = static_cast<int>(0.5 * x / area);
-		shape.y = static_cast<int>(y / area);
-		shape.size = std::ilogb(area * area * area * area);
-		std::partial_sum(m_longer.rbegin(), m_longer.rend(), m_longer.rbegin());
-		shape.runs.resize(m_runs.size());
-		for (const Run& run : m_runs)
-			shape.runs[m_longer[positionOf(run.last - run.first)]++] = run;
-	}
-
-	int m_cells;
-	double m_cell, m_reach;                     // m_reach in cells
-	std::vector<std::array<Point2, 2>> m_sides; // in cells
-	Rows m_rows;
-	/// Rows, where in them, and 1 where the side runs down, the outline's inner side on its right.
-	std::vector<std::tuple<int, double, int>> m_crossings;
-	std::vector<Run> m_runs;
-	std::vector<std::size_t> m_longer; // [length] runs that are longer
-};
-
-/// Less is better: the side of the square, how far along an axis the shape reaches, and the square of its middle's
-/// distance from the corner.
-using Cost = std::array<int, 3>;
-
-struct Spot
-{
-	Cost cost{std::numeric_limits<int>::max(), 0, 0};
-	const Shape* shape = nullptr;
-	int x = 0, y = 0;
-};
-
-class Canvas
-{
-public:
-	explicit Canvas(int cells) :
-			m_cells(cells), m_levels(std::ilogb(cells) + 1), m_taken(cells * m_levels, cells),
-			m_blocked(1, cells)
-	{
-	}
-
-	int side() const { return m_side; }
-	long long work() const { return m_work; }
-
-	void clear()
-	{
-		m_taken.clear(m_side * m_levels);
-		m_side = 0;
-	}
-
-	/// Takes a better place of \p shape than \p best, if there is one.
-	/// \param least cells that it reaches along an axis; it is not looked for nearer
-	void look(const Shape& shape, int least, Spot& best)
-	{
-		m_runs = shape.runs;
-		for (int y = 0; y + shape.height <= farthest(best); ++y) {
-			const int end = farthest(best) - shape.width + 1; // of x
-			if (end <= 0)
-				return;
-			const int begin = y + shape.height < least ? std::max(least - shape.width, 0) : 0;
-			if (begin >= end)
-				continue;
-			std::uint64_t* blocked = m_blocked[0];
-			const int firstWord = begin / kWordBits, words = (end - 1) / kWordBits + 1;
-			std::fill(blocked + firstWord, blocked + words, 0);
-			fill(blocked, begin - begin % kWordBits, begin);
-			fill(blocked, end, words * kWordBits);
-			bool isFull = false;
-			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
-				isFull = block(m_runs[i], y, firstWord, words);
-				++m_work;
-				if (isFull)
-					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
-			}
-			if (isFull)
-				continue;
-			const int x = nextCell(blocked, begin, end, false);
-			const int right = x + shape.width, top = y + shape.height;
-			const int reach = std::max(right, top), toX = x + shape.x, toY = y + shape.y;
-			const Cost cost{std::max(m_side, reach), reach, toX * toX + toY * toY};
-			if (cost < best.cost)
-				best = {cost, &shape, x, y};
-		}
-	}
-
-	void take(const Spot& spot)
-	{
-		for (const Run& run : spot.shape->runs)
-			fill(rowAt(spot.y + run.row, 0), spot.x + run.first, spot.x + run.last);
-		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
-			for (int k = 0; k + 1 < m_levels; ++k) {
-				const std::uint64_t* half = rowAt(y, k);
-				for (int i = 0; i < m_cells / kWordBits; ++i) {
-					const int x = std::min(i * kWordBits + (1 << k), m_cells);
-					rowAt(y, k + 1)[i] = half[i] | bitsFrom(half + x / kWordBits, x % kWordBits);
-				}
-			}
-		m_side = spot.cost[0];
-	}
-
-private:
-	/// No place that reaches farther along an axis is better.
-	int farthest(const Spot& best) const
-	{
-		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, m_cells);
-	}
-
-	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
-
-	/// Adds the x at which \p run meets cells that are taken, in words from one to before \p words.
-	/// \return whether all are blocked now
-	bool block(const Run& run, int y, int firstWord, int words)
-	{
-		const std::uint64_t* taken = rowAt(y + run.row, run.level);
-		const int first = run.first, last = run.last - (1 << run.level);
-		std::uint64_t* blocked = m_blocked[0];
-		std::uint64_t all = ~std::uint64_t{0};
-		for (int i = firstWord; i < words; ++i)
-			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
-								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
-		return all == ~std::uint64_t{0};
-	}
-
-	int m_cells, m_levels;
-	Rows m_taken;            // [y, k] the x from which one of 2^k cells is taken
-	Rows m_blocked;          // one
-	std::vector<Run> m_runs; // of a shape, those that block most first
-	int m_side = 0;          // of the square that holds all
-	long long m_work = 0;
-};
 
 double areaOf(const Outline& outline)
 {
@@ -412,8 +96,40 @@ struct Try
 	std::size_t last = 0;        ///< outline that reaches farthest, or that has no place
 };
 
-/// Places outlines one after the other where the square stays smallest and below \p side. What is about as large as
-/// one that has a place is not looked for nearer, but for twice its own extent.
+/// Places shapes one after the other where the square that holds all so far is smallest. What is about as large as one
+/// that has a place is not looked for nearer, but for twice its own extent.
+class Placer
+{
+public:
+	Placer(double cell, Canvas& canvas) : m_cell(cell), m_canvas(canvas) { canvas.clear(); }
+
+	/// \param shapes of one outline, to choose from; not empty
+	/// \param side cells of the square, which has to stay smaller
+	/// \return where along an axis it reaches to, in cells, or 0 where it has no place
+	int put(const std::vector<Shape>& shapes, int side, Motion& motion)
+	{
+		Spot spot;
+		spot.cost[0] = side;
+		int& reached = m_reached[shapes.front().size];
+		for (const Shape& shape : shapes)
+			m_canvas.look(shape, reached - 2 * shape.extent(), spot);
+		checkpoint();
+		if (!spot.shape)
+			return 0;
+		m_canvas.take(spot);
+		reached = spot.cost[1];
+		motion = spot.shape->motion;
+		motion.shift += std::complex<double>(spot.x * m_cell, spot.y * m_cell);
+		return spot.cost[1];
+	}
+
+private:
+	double m_cell;
+	Canvas& m_canvas;
+	std::map<int, int> m_reached; // by Shape::size
+};
+
+/// Places outlines below \p side.
 /// \param first shape of the first one
 /// \param shapes [outline] to choose from
 /// \return without motions where one has no place
@@ -425,30 +141,66 @@ Try place(
 	int side,
 	Canvas& canvas)
 {
-	canvas.clear();
+	Placer placer(cell, canvas);
 	Try result{0, order, std::vector<Motion>(order.size()), order.front()};
-	std::map<int, int> reached; // by Shape::size
+	const std::vector<Shape> ofFirst{first};
 	for (const std::size_t i : order) {
-		Spot spot;
-		spot.cost[0] = side;
-		if (i == order.front())
-			canvas.look(first, 0, spot);
-		else
-			for (const Shape& shape : shapes[i])
-				canvas.look(shape, reached[shapes[i][0].size] - 2 * shape.extent(), spot);
-		checkpoint();
-		if (!spot.shape)
+		const int reached =
+			placer.put(i == order.front() ? ofFirst : shapes[i], side, result.motions[i]);
+		if (reached == 0)
 			return {0, order, {}, i};
-		canvas.take(spot);
-		reached[shapes[i][0].size] = spot.cost[1];
-		if (spot.cost[1] > result.side) {
-			result.side = spot.cost[1];
+		if (reached > result.side) {
+			result.side = reached;
 			result.last = i;
 		}
-		result.motions[i] = spot.shape->motion;
-		result.motions[i].shift += std::complex<double>(spot.x * cell, spot.y * cell);
 	}
 	return result;
+}
+
+/// How outlines are drawn in cells, in the turns that they may have.
+struct ShapeRules
+{
+	int cells;   ///< along the side of the square
+	double side; ///< of the square
+	double reach;
+	int angles; ///< below a right one, in which those are drawn that turn freely
+};
+
+/// An outline in cells, in all its turns, as far as it fits into the square.
+/// \param byExtent first in the turn in which the square round it is smallest, if it turns freely
+std::vector<Shape>
+shapesOf(const Outline& outline, ChartTurns turns, const ShapeRules& rules, bool byExtent)
+{
+	Drawing drawing(rules.cells, rules.side, rules.reach);
+	const bool isFree = turns == ChartTurns::Free;
+	std::vector<std::complex<double>> angles; // below a right one
+	if (isFree && byExtent)
+		angles.push_back(turnToMinExtent(outline));
+	for (int k = 0; k < (isFree ? rules.angles : 1); ++k)
+		angles.push_back(rationalTurn(k, rules.angles));
+	std::vector<Shape> shapes;
+	for (std::complex<double> turn : angles)
+		for (int q = 0; q < (turns == ChartTurns::None ? 1 : 4);
+			 ++q, turn = {-turn.imag(), turn.real()})
+			if (Shape shape; drawing.draw(outline, turn, shape)) {
+				shape.quarterTurns = q;
+				shapes.push_back(std::move(shape));
+			}
+	return shapes;
+}
+
+std::int64_t sidesOf(const std::vector<Outline>& outlines)
+{
+	std::int64_t sides = 0;
+	for (const Outline& outline : outlines)
+		sides += static_cast<std::int64_t>(outline.size());
+	return sides;
+}
+
+/// Angles below a right one in which each of so many outlines is tried.
+int anglesFor(std::size_t outlines)
+{
+	return std::clamp(256 / static_cast<int>(outlines), 2, kMaxAngles);
 }
 
 } // namespace
@@ -457,6 +209,12 @@ int coarseCells(std::size_t outlines)
 {
 	const int wanted = static_cast<int>(kCoarsePerRoot * std::sqrt(static_cast<double>(outlines)));
 	return std::clamp(wanted, kMinCoarse, kMaxCoarse) / kWordBits * kWordBits;
+}
+
+std::size_t tileShare(std::size_t outlines, double squares)
+{
+	const double share = std::ceil(static_cast<double>(outlines) / std::max(squares, 1.0));
+	return static_cast<std::size_t>(share);
 }
 
 std::vector<Motion> packOutlines(
@@ -468,33 +226,20 @@ std::vector<Motion> packOutlines(
 	const double reach = 0.5 * padding;
 	Order order = orderOf(outlines, side);
 	const std::size_t largest = order.front();
-	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, kMaxAngles);
 	const int coarseSide = coarseCells(outlines.size()), fineSide = kFineInCoarse * coarseSide;
-
+	const ShapeRules rules{coarseSide, side, reach, anglesFor(outlines.size())};
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
-	std::vector<std::size_t> firsts;                         // of the largest, below a right angle
-	std::int64_t sides = 0;
-	for (const Outline& outline : outlines)
-		sides += static_cast<std::int64_t>(outline.size());
-	const auto draw = [&](int number) {
-		const std::size_t i = positionOf(number);
-		Drawing coarse(coarseSide, side, reach);
-		const bool isFree = turns[i] == ChartTurns::Free;
-		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
-		std::vector<std::complex<double>> angles; // below a right one
-		if (isFree && i == largest)
-			angles.push_back(turnToMinExtent(outlines[i]));
-		for (int k = 0; k < (isFree ? freeAngles : 1); ++k)
-			angles.push_back(rationalTurn(k, freeAngles));
-		for (std::complex<double> turn : angles)
-			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()})
-				if (Shape shape; coarse.draw(outlines[i], turn, shape)) {
-					if (i == largest && q == 0)
-						firsts.push_back(shapes[i].size());
-					shapes[i].push_back(std::move(shape));
-				}
-	};
-	tasksInParallel(static_cast<int>(outlines.size()), threadsFor(sides), draw);
+	tasksInParallel(
+		static_cast<int>(outlines.size()), threadsFor(sidesOf(outlines)), [&](int number) {
+			const std::size_t i = positionOf(number);
+			shapes[i] = shapesOf(outlines[i], turns[i], rules, i == largest);
+		});
+	std::vector<std::size_t> firsts; // of the largest, below a right angle
+	for (std::size_t k = 0; k < shapes[largest].size(); ++k)
+		if (shapes[largest][k].quarterTurns == 0)
+			firsts.push_back(k);
+	if (std::any_of(shapes.begin(), shapes.end(), [](const auto& some) { return some.empty(); }))
+		return {};
 
 	Canvas canvas(coarseSide);
 	std::vector<Try> tries;
@@ -545,6 +290,48 @@ std::vector<Motion> packOutlines(
 		}
 	}
 	return best;
+}
+
+std::vector<TilePlace> packIntoTiles(
+	const std::vector<Outline>& outlines,
+	const std::vector<ChartTurns>& turns,
+	double side,
+	double padding)
+{
+	std::vector<double> areas; // of squares
+	for (const Outline& outline : outlines)
+		areas.push_back(areaOf(outline) / (side * side));
+	const double squares = std::max(1.0, std::accumulate(areas.begin(), areas.end(), 0.0));
+	const std::size_t inSquare = tileShare(outlines.size(), squares);
+	const ShapeRules rules{
+		kFineInCoarse * coarseCells(inSquare), side, 0.5 * padding, anglesFor(inSquare)};
+	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
+	tasksInParallel(
+		static_cast<int>(outlines.size()), threadsFor(sidesOf(outlines)), [&](int number) {
+			const std::size_t i = positionOf(number);
+			shapes[i] = shapesOf(outlines[i], turns[i], rules, true);
+		});
+	std::vector<TilePlace> places(outlines.size());
+	Order left = orderOf(outlines, side);
+	Canvas canvas(rules.cells);
+	for (int tile = 0; !left.empty(); ++tile) {
+		Placer placer(side / rules.cells, canvas);
+		Order next;
+		double room = 1.0;
+		for (const std::size_t i : left) {
+			if (shapes[i].empty())
+				return {};
+			TilePlace& place = places[i];
+			if (areas[i] > room || placer.put(shapes[i], rules.cells + 1, place.motion) == 0) {
+				next.push_back(i);
+				continue;
+			}
+			place.tile = tile;
+			room -= areas[i];
+		}
+		left = std::move(next);
+	}
+	return places;
 }
 
 } // namespace ricci

@@ -48,6 +48,29 @@ std::vector<Motion> packOutlines(
 	double side,
 	double padding);
 
+/// How many of so many outlines lie in one of the squares that their areas need.
+std::size_t tileShare(std::size_t outlines, double squares);
+
+/// Where an outline lies in packIntoTiles().
+struct TilePlace
+{
+	int tile = -1;
+	Motion motion; ///< into the square from the origin
+};
+
+/// Packs outlines into squares of one side, as many as they take, by cells that they touch, the largest first. Each goes
+/// into the first square in which there is room for it, where the square that holds all so far is smallest. The same
+/// outlines always get the same places.
+/// \param outlines not empty, none without sides
+/// \param turns [outline]
+/// \param padding least distance of two outlines
+/// \return [outline]; empty where one fits into no square
+std::vector<TilePlace> packIntoTiles(
+	const std::vector<Outline>& outlines,
+	const std::vector<ChartTurns>& turns,
+	double side,
+	double padding);
+
 } // namespace ricci
 
 #endif

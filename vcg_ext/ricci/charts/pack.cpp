@@ -7,12 +7,12 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "boxes_side_by_side.h"
+#include "pack_items.h"
 #include "separate_charts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -29,36 +29,8 @@ constexpr int kMaxAttempts = 60;
 /// mostly are one chart, stay below it; a strip ten times as long as wide fills a tenth of the square in place of a sixth.
 constexpr double kUprightCost = 0.1;
 
-/// Charts that are placed by their outlines at most: the time for them grows faster than their number.
-constexpr std::size_t kMaxOutlines = 4096;
-
-/// A chart is placed by its outline if its box is longer than so many of the cells in which places are sought.
-constexpr double kMinOutlineCells = 3.0;
-
 /// A square of cells, which take more room than outlines do, is wider by this factor than that of the boxes.
 constexpr double kWider = 1.1;
-
-/// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
-/// that the chart's triangles want: to be given a height they lie side by side in two directions.
-/// \param side of a square that holds all
-/// \return [box] 1 for those that are thinner than kBoxRoom, which are not turned
-std::vector<char>
-widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<Box2>& boxes)
-{
-	std::vector<char> isThin(boxes.size(), 0);
-	for (std::size_t i = 0; i < boxes.size(); ++i) {
-		const double count = static_cast<double>(triangles[i].size());
-		const double room = side * (kBoxRoom * (1.0 + 0.25 * std::sqrt(count)));
-		for (std::size_t k = 0; k < 2; ++k)
-			if (const double length = boxes[i].max[k] - boxes[i].min[k];
-				length < kThinSide * room) {
-				boxes[i].min[k] -= 0.5 * room;
-				boxes[i].max[k] += 0.5 * room;
-				isThin[i] = isThin[i] || length < side * kBoxRoom;
-			}
-	}
-	return isThin;
-}
 
 /// Rounding may leave the unit square by one unit of the last place.
 void clampToUnitSquare(Parametrization& map)
@@ -132,11 +104,29 @@ Packing packAlone(const FlatMesh& mesh, bool isUpright)
 	return packing;
 }
 
-Outline borderOf(const Box2& box)
+/// By outlines.
+/// \return without motions where boxes are better, or the outlines need more than that square and some more
+Packing packByOutlines(const ChartsToPack& charts, const PackSquare& square)
 {
-	const Point2 &a = box.min, &c = box.max;
-	const Point2 b{c[0], a[1]}, d{a[0], c[1]};
-	return {{a, b}, {b, c}, {c, d}, {d, a}};
+	PackItems items = packItems(charts, square);
+	if (items.isMostlySmall)
+		return {};
+	const std::vector<Motion> motions = packOutlines(
+		items.outlines, items.turns, kWider * square.side - square.padding, square.padding);
+	if (motions.empty())
+		return {};
+	Packing packing;
+	for (std::size_t k = 0; k < items.outlines.size(); ++k)
+		for (auto& ends : items.outlines[k])
+			for (Point2& p : ends) {
+				p = motions[k](p);
+				packing.whole.add(p);
+			}
+	if (!keepApart(items.outlines, (1.0 - kMarginSpare) * square.padding))
+		return {};
+	for (std::size_t i = 0; i < items.of.size(); ++i)
+		packing.motions.push_back(items.motionOf(i, motions[items.of[i].item]));
+	return packing;
 }
 
 /// Moves the charts and their boxes. A chart that is turned by less than a right angle gets its own box.
@@ -156,108 +146,6 @@ void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, P
 	}
 }
 
-/// What packByOutlines() packs.
-struct OutlineTask
-{
-	const FlatMesh& mesh;
-	const std::vector<std::vector<int>>& triangles; ///< [chart]
-	const std::vector<Box2>& boxes;                 ///< [chart]
-	const std::vector<char>& isThin;                ///< [chart]
-	const std::vector<char>& isUpright;             ///< [chart] turned by right angles only
-	double side;                                    ///< of the square that holds the boxes
-	double padding;                                 ///< between charts
-};
-
-/// The largest charts by their outlines, the others in one box.
-/// \return without motions where they need more than that square and some more
-Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
-{
-	const auto& [mesh, triangles, boxes, isThin, isUpright, side, padding] = task;
-	std::vector<std::size_t> order(boxes.size());
-	std::iota(order.begin(), order.end(), std::size_t{0});
-	const auto area = [&boxes = boxes](std::size_t i) {
-		return boxes[i].width() * boxes[i].height();
-	};
-	const double square = side * side;
-	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return roundedShare(area(a), square) > roundedShare(area(b), square);
-	});
-	std::vector<std::size_t> large, small;
-	double areaOfLarge = 0.0, areaOfSmall = 0.0;
-	const double least = kMinOutlineCells * side / coarseCells(boxes.size());
-	for (const std::size_t i : order) {
-		const bool isLarge = large.size() < kMaxOutlines && !isThin[i] && boxes[i].extent() > least;
-		(isLarge ? large : small).push_back(i);
-		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
-	}
-	if (large.empty() || areaOfLarge < areaOfSmall)
-		return {};
-	std::vector<Outline> outlines(large.size());
-	tasksInParallel(
-		static_cast<int>(large.size()),
-		threadsFor(mesh.size() / 32),
-		[&, &mesh = mesh, &triangles = triangles](int k) {
-			outlines[positionOf(k)] = outlineOf(mesh, triangles[large[positionOf(k)]]);
-		});
-	if (std::any_of(outlines.begin(), outlines.end(), [](const Outline& o) { return o.empty(); }))
-		return {}; // without area
-	std::vector<Box2> smallBoxes;
-	smallBoxes.reserve(small.size());
-	for (const std::size_t i : small)
-		smallBoxes.push_back(boxes[i]);
-	const std::vector<Point2> shift = placeBoxes(smallBoxes, padding);
-	Box2 ofSmall;
-	for (std::size_t k = 0; k < small.size(); ++k) {
-		ofSmall.add(smallBoxes[k].min + shift[k]);
-		ofSmall.add(smallBoxes[k].max + shift[k]);
-	}
-	std::vector<ChartTurns> turnsOf(large.size(), turns);
-	for (std::size_t k = 0; k < large.size(); ++k)
-		if (isUpright[large[k]])
-			turnsOf[k] = ChartTurns::Quarter;
-	if (!small.empty()) {
-		outlines.push_back(borderOf(ofSmall));
-		turnsOf.push_back(ChartTurns::Quarter); // their boxes stay upright
-	}
-	const std::vector<Motion> motions =
-		packOutlines(outlines, turnsOf, kWider * side - padding, padding);
-	if (motions.empty())
-		return {};
-	Packing packing;
-	for (std::size_t k = 0; k < outlines.size(); ++k)
-		for (auto& ends : outlines[k])
-			for (Point2& p : ends) {
-				p = motions[k](p);
-				packing.whole.add(p);
-			}
-	if (!keepApart(outlines, (1.0 - kMarginSpare) * padding))
-		return {};
-	packing.motions.resize(boxes.size());
-	for (std::size_t k = 0; k < large.size(); ++k)
-		packing.motions[large[k]] = motions[k];
-	for (std::size_t k = 0; k < small.size(); ++k)
-		packing.motions[small[k]] = {motions.back().turn, asComplex(motions.back()(shift[k]))};
-	return packing;
-}
-
-/// Lays charts along the axes that have an upright turn.
-/// \return [chart] 1 for these
-std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, FlatMesh& mesh)
-{
-	std::vector<char> isUpright(triangles.size(), 0);
-	std::vector<Motion> motions(triangles.size());
-	tasksInParallel(
-		static_cast<int>(triangles.size()), threadsFor(mesh.size() / 32), [&](int chart) {
-			const std::size_t i = positionOf(chart);
-			const std::complex<double> turn = uprightTurn(outlineOf(mesh, triangles[i]));
-			isUpright[i] = turn != 0.0;
-			if (isUpright[i])
-				motions[i].turn = turn;
-		});
-	moveCharts(motions, mesh);
-	return isUpright;
-}
-
 void requireFloats(const Array<Point2>& places)
 {
 	using Float = std::numeric_limits<float>;
@@ -275,6 +163,18 @@ void requireFloats(const Array<Point2>& places)
 		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
 
+PlaceBoxes checkedPlaces(const PackOptions& options)
+{
+	return [asked = options.placeBoxes ? options.placeBoxes : PlaceBoxes(sideBySide)](
+			   const std::vector<Box2>& boxes, double padding) {
+		std::vector<Point2> places = asked(boxes, padding);
+		if (places.size() != boxes.size())
+			throw InvalidOption(
+				InvalidOption::BoxPlaces, static_cast<double>(places.size()), 0.0, boxes.size());
+		return places;
+	};
+}
+
 /// packCharts() into the unit square, without cuts.
 void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
@@ -290,14 +190,7 @@ void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns
 		extent = std::max(extent, box.extent());
 	}
 	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
-	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : sideBySide;
-	const PlaceBoxes placeBoxes = [&](const std::vector<Box2>& some, double padding) {
-		std::vector<Point2> places = asked(some, padding);
-		if (places.size() != some.size())
-			throw InvalidOption(
-				InvalidOption::BoxPlaces, static_cast<double>(places.size()), 0.0, some.size());
-		return places;
-	};
+	const PlaceBoxes placeBoxes = checkedPlaces(options);
 	double margin = options.chartMargin;
 	Packing packing = packBoxes(boxes, margin, placeBoxes);
 	while (packing.motions.empty())
@@ -307,13 +200,11 @@ void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns
 	if (mayTurn != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && (isThin.front() || options.turns == ChartTurns::Quarter))) {
 		const double padding = std::max(packing.padding, kMinPadding * packing.side());
-		Packing turned =
-			boxes.size() == 1
-				? packAlone(map.mesh, isUpright.front() != 0)
-				: packByOutlines(
-					  {map.mesh, triangles, boxes, isThin, isUpright, packing.side(), padding},
-					  placeBoxes,
-					  mayTurn);
+		Packing turned = boxes.size() == 1
+							 ? packAlone(map.mesh, isUpright.front() != 0)
+							 : packByOutlines(
+								   {map.mesh, triangles, boxes, isThin, isUpright, mayTurn},
+								   {packing.side(), padding, boxes.size(), kInfinity, placeBoxes});
 		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
 		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
@@ -383,6 +274,140 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 	}
 }
 
+/// Scales a map and the boxes of its charts.
+void scaleBy(double scale, Parametrization& map)
+{
+	for (Point2& p : map.mesh.place)
+		p *= scale;
+	for (Chart& chart : map.charts)
+		for (Point2* p : {&chart.box.min, &chart.box.max})
+			*p *= scale;
+}
+
+/// Charts of tiles, in units of these.
+class Tiles
+{
+public:
+	Tiles(const PackOptions& options, ChartTurns turns, Parametrization& map) :
+			m_options(options), m_turns(turns), m_mayTurn(std::min(turns, options.turns)),
+			m_map(map)
+	{
+		const double area = map.mesh.area(), covered = coveredArea(map.mesh);
+		if (area > kMaxTiles * options.tileSide * options.tileSide)
+			refuse(std::sqrt(area / (kLeastFilled * kMaxTiles)));
+		if (covered > 0.0)
+			scaleBy(std::sqrt(area / covered) / options.tileSide, map);
+		measure();
+	}
+
+	/// Cuts charts that are too long, until none is.
+	void cutToFit(bool mayCut)
+	{
+		for (std::vector<std::size_t> tooLong; !(tooLong = findTooLong()).empty();) {
+			for (const std::size_t chart : tooLong) {
+				std::optional<ChartCut> cut;
+				if (mayCut)
+					cut = findCutToFit(m_map.mesh, m_triangles[chart], m_room);
+				if (!cut)
+					refuse(m_options.tileSide * m_extents[chart] / m_room);
+				cut->chart = static_cast<int>(chart);
+				cutChart(*cut, m_turns == ChartTurns::Free, m_map);
+			}
+			measure();
+		}
+	}
+
+	void pack()
+	{
+		// Tilted, it may be short enough.
+		for (std::size_t i = 0; i < m_boxes.size(); ++i)
+			if (m_mayTurn == ChartTurns::Free && m_boxes[i].extent() > m_room)
+				m_isUpright[i] = 0;
+		const double side = 1.0 - m_padding;
+		const PlaceBoxes placeBoxes = checkedPlaces(m_options);
+		const PackItems items = packItems(
+			{m_map.mesh, m_triangles, m_boxes, m_isThin, m_isUpright, m_mayTurn},
+			{side,
+			 m_padding,
+			 tileShare(m_boxes.size(), coveredArea(m_map.mesh)),
+			 kLongestBox,
+			 placeBoxes});
+		const std::vector<TilePlace> places =
+			packIntoTiles(items.outlines, items.turns, side, m_padding);
+		if (places.empty())
+			throw InternalError("A chart does not fit into a tile");
+		std::vector<Motion> motions;
+		m_map.report.tiles = 1;
+		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
+			const TilePlace& at = places[items.of[i].item];
+			motions.push_back(items.motionOf(i, at.motion));
+			motions.back().shift += std::complex<double>(
+				0.5 * m_padding + at.tile % kTilesInRow, 0.5 * m_padding + at.tile / kTilesInRow);
+			m_map.report.tiles = std::max(m_map.report.tiles, at.tile + 1);
+		}
+		if (m_map.report.tiles > kMaxTiles)
+			refuse(m_options.tileSide * std::sqrt(kMore * m_map.report.tiles / kMaxTiles));
+		place(motions, m_boxes, m_map);
+		m_map.report.margin = m_options.chartMargin;
+		m_map.report.occupancy = coveredArea(m_map.mesh) / m_map.report.tiles;
+	}
+
+private:
+	[[noreturn]] void refuse(double least) const
+	{
+		throw InvalidOption(InvalidOption::TileSide, m_options.tileSide, least);
+	}
+
+	void measure()
+	{
+		m_triangles = m_map.mesh.trianglesByChart(m_map.charts.size());
+		m_isUpright.assign(m_triangles.size(), 0);
+		if (m_turns == ChartTurns::Free && m_options.turns != ChartTurns::None)
+			m_isUpright = turnUpright(m_triangles, m_map.mesh);
+		m_boxes = m_map.mesh.boxes(m_triangles.size());
+		m_isThin = widen(m_triangles, 1.0, m_boxes);
+	}
+
+	/// Fills m_extents.
+	std::vector<std::size_t> findTooLong()
+	{
+		std::vector<std::size_t> tooLong;
+		m_extents.clear();
+		std::vector<std::vector<int>> pointsOf; // of charts, once they are asked for
+		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
+			double extent = m_boxes[i].extent();
+			if (extent > m_room && m_mayTurn == ChartTurns::Free && !m_isThin[i]) {
+				if (pointsOf.empty())
+					pointsOf = m_map.mesh.pointsByChart(m_boxes.size());
+				std::vector<Point2> points;
+				for (const int p : pointsOf[i])
+					points.push_back(m_map.mesh.place[p]);
+				extent = minExtentRectangle(std::move(points)).extent();
+			}
+			m_extents.push_back(extent);
+			if (extent > m_room)
+				tooLong.push_back(i);
+		}
+		return tooLong;
+	}
+
+	/// Charts hardly ever cover less of the tiles; and so many times the area in one is enough where it was too little.
+	static constexpr double kLeastFilled = 1.0 / 3.0, kMore = 1.5;
+
+	/// Boxes of small charts are no longer, so that they find room beside others.
+	static constexpr double kLongestBox = 0.25;
+
+	const PackOptions& m_options;
+	ChartTurns m_turns, m_mayTurn;
+	Parametrization& m_map;
+	double m_padding = (1.0 + kMarginSpare) * std::max(m_options.chartMargin, kMinPadding);
+	double m_room = (1.0 - kMarginSpare) * (1.0 - 2.0 * m_padding); // for the extent of a chart
+	std::vector<std::vector<int>> m_triangles;                      // [chart]
+	std::vector<char> m_isUpright, m_isThin;                        // [chart]
+	std::vector<Box2> m_boxes;                                      // [chart]
+	std::vector<double> m_extents;                                  // [chart] as it may be turned
+};
+
 } // namespace
 
 void checkChartMargin(double margin)
@@ -400,6 +425,12 @@ bool marginsMayFit(std::size_t charts, double margin)
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut)
 {
 	checkChartMargin(options.chartMargin);
+	if (options.tileSide > 0.0) {
+		Tiles tiles(options, turns, map);
+		tiles.cutToFit(mayCut);
+		tiles.pack();
+		return;
+	}
 	const Array<Point2> before = map.mesh.place;
 	const double area = coveredArea(map.mesh);
 	if (mayCut)
@@ -414,11 +445,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	}
 	const double covered = coveredArea(map.mesh),
 				 scale = covered > 0.0 ? std::sqrt(area / covered) : 1.0;
-	for (Point2& p : map.mesh.place)
-		p *= scale;
-	for (Chart& chart : map.charts)
-		for (Point2* p : {&chart.box.min, &chart.box.max})
-			*p *= scale;
+	scaleBy(scale, map);
 	requireFloats(map.mesh.place);
 }
 
@@ -439,13 +466,6 @@ void placeDisks(Parametrization& map)
 	moveCharts(motions, map.mesh);
 	clampToUnitSquare(map);
 	map.report.occupancy = coveredArea(map.mesh);
-}
-
-void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
-{
-	const Array<int> chart = mesh.chartOfPoints();
-	for (const int p : chart.indices())
-		mesh.place[p] = motions[positionOf(chart[p])](mesh.place[p]);
 }
 
 } // namespace ricci

@@ -6,7 +6,6 @@
 
 #include "../layout/parametrization.h"
 #include "../options.h"
-#include "outline_packing.h"
 
 #include <cstddef>
 #include <vector>
@@ -33,9 +32,13 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// With \p mayCut charts are cut by findCutForPacking() as long as that is worth it (kPackingPrice) and each cut brings
 /// kMinRoom besides; until kEnoughCovered is covered. Without turns nothing is cut.
 ///
+/// With PackOptions::tileSide charts are packed into tiles by their outlines, each into the first one in which there is
+/// room. With \p mayCut a chart that is too long for a tile is cut by findCutToFit(), and only such a chart.
+///
 /// Without PackOptions::normalizeUV all this is scaled back to the size that the charts had. A single chart then is not
 /// turned.
-/// \throw InvalidOption ChartMargin, BoxPlaces; InvalidMesh BeyondFloats if coordinates that keep their scale are too
+/// \throw InvalidOption ChartMargin, BoxPlaces, TileSide for a chart that is too long and cannot be cut, or more than
+/// kMaxTiles tiles; InvalidMesh BeyondFloats if coordinates that keep their scale are too
 /// large or too small for float, in which they will be stored
 void packCharts(
 	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
@@ -49,9 +52,6 @@ constexpr int kMaxCuts = 24;
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
 void placeDisks(Parametrization& map);
-
-/// Moves every point p of chart i to motions[i](p).
-void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh);
 
 } // namespace ricci
 

@@ -111,28 +111,35 @@ bool reflectFlipped(FlatMesh& chart)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// The pieces of a chart that is not connected; else the least cut across its smallest bounding rectangle, except for \p from at either end, or across so much
-/// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
-/// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
-/// chart goes to the other part.
+/// Where a cut is looked for along a rectangle, as shares of its length from its middle.
+struct CutBand
+{
+	double middle;         ///< where edges cost least
+	double width;          ///< to either side
+	double crumb = kCrumb; ///< share of a chart that is no part
+};
+
+/// The pieces of a chart that is not connected; else the least cut across its smallest bounding rectangle, in a band.
+/// Its length is weighed by the square that holds the longer part: an edge at the end of the rectangle costs four times
+/// as much as one in the middle. Crumbs go to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<ChartCut> halves(
 	const FlatMesh& mesh,
 	const std::vector<int>& triangles,
 	const OrientedRectangle& r,
-	double from)
+	const CutBand& band)
 {
 	DualGraph graph(mesh);
 	ChartCut cut{graph.connectedPieces(triangles)};
 	if (cut.pieces.size() > 1)
 		return cut;
-	// From the middle of the rectangle, along it: 0 for a triangle that reaches across.
+	// From the middle of the band, along the rectangle: 0 for a triangle that reaches across.
 	std::vector<double> along;
 	for (const int i : triangles) {
 		double first = 0.5, last = -0.5;
 		for (const Point2& p : mesh.at(i)) {
-			const double at = (r.inFrame(p)[0] - r.min[0]) / r.width() - 0.5;
+			const double at = (r.inFrame(p)[0] - r.min[0]) / r.width() - 0.5 - band.middle;
 			first = std::min(first, at);
 			last = std::max(last, at);
 		}
@@ -149,7 +156,7 @@ std::optional<ChartCut> halves(
 	const auto end = apart.begin() +
 					 static_cast<std::ptrdiff_t>(std::min(count - 1.0, kBand * std::sqrt(count)));
 	std::nth_element(apart.begin(), end, apart.end());
-	const double width = std::min(0.5 - from, *end);
+	const double width = std::min(band.width, *end);
 	std::vector<int> left, right;
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		if (std::abs(along[i]) > width)
@@ -166,7 +173,7 @@ std::optional<ChartCut> halves(
 	};
 	cut.pieces = graph.connectedPieces(triangles);
 	std::vector<double> areas = areasOf(cut.pieces);
-	const double crumb = kCrumb * std::accumulate(areas.begin(), areas.end(), 0.0);
+	const double crumb = band.crumb * std::accumulate(areas.begin(), areas.end(), 0.0);
 	const auto isCrumb = [&](double area) { return area < crumb; };
 	if (std::any_of(areas.begin(), areas.end(), isCrumb)) {
 		for (std::size_t p = 0; p < areas.size(); ++p)
@@ -185,6 +192,16 @@ std::optional<ChartCut> halves(
 				++cut.edges;
 				cut.length += mesh.lengths[own];
 			}
+	return cut;
+}
+
+std::optional<ChartCut>
+acrossRectangle(const FlatMesh& mesh, const std::vector<int>& triangles, const OrientedRectangle& r)
+{
+	std::optional<ChartCut> cut;
+	for (const double from : kCutFrom)
+		if (!cut)
+			cut = halves(mesh, triangles, r, {0.0, 0.5 - from});
 	return cut;
 }
 
@@ -283,6 +300,27 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
+std::optional<ChartCut>
+findCutToFit(const FlatMesh& mesh, const std::vector<int>& triangles, double longest)
+{
+	std::vector<Point2> places;
+	for (const int f : triangles)
+		for (const Point2& p : mesh.at(f))
+			places.push_back(p);
+	const OrientedRectangle r = minAreaRectangle(std::move(places));
+	// Of one part more where there is no room for a cut along edges.
+	const double width = r.width(),
+				 edge = std::sqrt(width * r.height() / static_cast<double>(triangles.size())),
+				 parts = std::ceil((width + edge) / longest), left = std::floor(0.5 * parts);
+	const double last = left * longest / width, first = 1.0 - (parts - left) * longest / width;
+	CutBand band{0.5 * (first + last) - 0.5, 0.5 * (last - first)};
+	std::optional<ChartCut> cut = halves(mesh, triangles, r, band);
+	if (!cut)
+		cut = acrossRectangle(mesh, triangles, r);
+	band.crumb = 0.0;
+	return cut ? cut : halves(mesh, triangles, r, band);
+}
+
 std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onSurface)
 {
 	struct Wide
@@ -315,10 +353,7 @@ std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onS
 		if (wide.room < kRoomOfChart * square)
 			return std::nullopt;
 		const std::vector<int>& triangles = byChart[wide.chart];
-		std::optional<ChartCut> cut;
-		for (const double from : kCutFrom)
-			if (!cut)
-				cut = halves(map.mesh, triangles, wide.rectangle, from);
+		std::optional<ChartCut> cut = acrossRectangle(map.mesh, triangles, wide.rectangle);
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));

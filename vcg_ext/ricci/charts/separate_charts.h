@@ -53,6 +53,13 @@ struct ChartCut
 	int chart = -1;      ///< its number
 };
 
+/// Finds a cut of a chart in two, along the edges of least length on the surface, across its smallest bounding
+/// rectangle, where parts of it that are no longer than \p longest are fewest, or where findCutForPacking() has it; if
+/// that leaves crumbs, with these. ChartCut::chart is left to the caller.
+/// \return none where nothing is cut
+std::optional<ChartCut>
+findCutToFit(const FlatMesh& mesh, const std::vector<int>& triangles, double longest);
+
 /// Finds a cut of a chart in two: along the edges of least length on the surface, where those far from the middle
 /// count as longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room
 /// there, of those whose cut may be worth what it costs by kPackingPrice.

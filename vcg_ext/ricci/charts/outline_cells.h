@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Outlines in the cells of a square: how they are drawn, and where they find a place.
+#ifndef RICCI_OUTLINE_CELLS_H
+#define RICCI_OUTLINE_CELLS_H
+
+#include "../base/points.h"
+#include "outline_packing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+constexpr int kWordBits = 64;
+
+/// Rows of cells, a bit for each that is taken, and bits that stay free at the end.
+class Rows
+{
+public:
+	Rows(int rows, int cells) : m_words(cells / kWordBits + 2), m_bits(positionOf(rows * m_words))
+	{
+	}
+
+	std::uint64_t* operator[](int row) { return m_bits.data() + positionOf(row * m_words); }
+	const std::uint64_t* operator[](int row) const
+	{
+		return m_bits.data() + positionOf(row * m_words);
+	}
+	void clear(int rows) { std::fill_n(m_bits.begin(), rows * m_words, 0); }
+
+private:
+	int m_words;
+	std::vector<std::uint64_t> m_bits;
+};
+
+/// 64 cells of a row from one of those in \p word on.
+inline std::uint64_t bitsFrom(const std::uint64_t* word, int bit)
+{
+	return word[0] >> bit | word[1] << 1 << (kWordBits - 1 - bit);
+}
+
+inline void fill(std::uint64_t* row, int first, int last)
+{
+	for (int x = first; x < last;) {
+		const int bit = x % kWordBits, count = std::min(kWordBits - bit, last - x);
+		const std::uint64_t ones =
+			count == kWordBits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+		row[x / kWordBits] |= ones << bit;
+		x += count;
+	}
+}
+
+/// Place of the lowest bit of \p word, which is not 0: the exponent of a double.
+inline int lowestBit(std::uint64_t word)
+{
+	const auto lowest = static_cast<double>(word & (~word + 1));
+	std::uint64_t bits;
+	std::memcpy(&bits, &lowest, sizeof bits);
+	return static_cast<int>(bits >> 52) - 1023;
+}
+
+/// The first cell from \p x to before \p end that is taken or that is free, or \p end.
+inline int nextCell(const std::uint64_t* row, int x, int end, bool taken)
+{
+	while (x < end) {
+		const std::uint64_t word = row[x / kWordBits];
+		const std::uint64_t rest = (taken ? word : ~word) >> (x % kWordBits);
+		if (rest != 0)
+			return std::min(x + lowestBit(rest), end);
+		x += kWordBits - x % kWordBits;
+	}
+	return end;
+}
+
+/// Cells of one row, from first to before last.
+struct Run
+{
+	int row, first, last;
+	int level; ///< two runs of 2^level cells cover it, one from its first, one to its last cell
+};
+
+/// An outline that is turned, in cells from the lower left corner of a box round it.
+struct Shape
+{
+	Motion motion; ///< brings that corner to the origin
+	int width = 0, height = 0;
+	int x = 0, y = 0;      ///< of the middle of its area
+	int size = 0;          ///< the same for areas that differ by less than a fifth
+	std::vector<Run> runs; ///< longest first
+	int quarterTurns = 0;  ///< right angles that it is turned by besides
+
+	int extent() const { return std::max(width, height); }
+};
+
+/// Draws outlines in cells, in buffers that it keeps.
+class Drawing
+{
+public:
+	/// \param reach taken, too: what is nearer than this along both axes
+	Drawing(int cells, double side, double reach) :
+			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells)
+	{
+	}
+
+	double cell() const { return m_cell; }
+
+	/// \return whether it fits into the square
+	bool draw(const Outline& outline, std::complex<double> turn, Shape& shape)
+	{
+		shape.motion = {turn, {0.0, 0.0}};
+		m_sides.clear();
+		Box2 box;
+		for (const auto& side : outline) {
+			m_sides.push_back({shape.motion(side[0]), shape.motion(side[1])});
+			box.add(m_sides.back()[0]);
+		}
+		const double reach = m_reach * m_cell;
+		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
+		shape.width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
+		shape.height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
+		if (shape.extent() > m_cells)
+			return false;
+		m_rows.clear(shape.height);
+		for (auto& side : m_sides) {
+			for (Point2& p : side)
+				p = {
+					(p[0] + shape.motion.shift.real()) / m_cell,
+					(p[1] + shape.motion.shift.imag()) / m_cell};
+			drawSide(side, shape);
+		}
+		fillBetween();
+		findRuns(shape);
+		return true;
+	}
+
+private:
+	/// The first one where \p x is negative.
+	static int cellAt(double x) { return static_cast<int>(std::max(x, 0.0)); }
+
+	void drawSide(const std::array<Point2, 2>& side, const Shape& shape)
+	{
+		const bool up = side[0][1] < side[1][1];
+		const Point2 &low = up ? side[0] : side[1], &high = up ? side[1] : side[0];
+		const double slope = high[1] > low[1] ? (high[0] - low[0]) / (high[1] - low[1]) : 0.0;
+		const auto xAt = [&](double y) {
+			return y <= low[1] ? low[0] : y >= high[1] ? high[0] : low[0] + slope * (y - low[1]);
+		};
+		const int last = std::min(cellAt(high[1] + m_reach), shape.height - 1);
+		for (int y = cellAt(low[1] - m_reach); y <= last; ++y) {
+			double from = xAt(y - m_reach), to = xAt(y + 1 + m_reach);
+			if (low[1] == high[1]) {
+				from = low[0];
+				to = high[0];
+			}
+			fill(
+				m_rows[y],
+				cellAt(std::min(from, to) - m_reach),
+				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
+			const double middle = y + 0.5;
+			if (low[1] <= middle && middle < high[1])
+				m_crossings.emplace_back(y, xAt(middle), up ? -1 : 1);
+		}
+	}
+
+	void fillBetween()
+	{
+		std::sort(m_crossings.begin(), m_crossings.end());
+		int turns = 0; // 0 again at the end of each row
+		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
+			const auto& [row, x, turn] = m_crossings[i];
+			const auto& next = m_crossings[i + 1];
+			turns = row == std::get<0>(next) ? turns + turn : 0;
+			if (turns != 0)
+				fill(m_rows[row], cellAt(x), cellAt(std::get<1>(next)) + 1);
+		}
+		m_crossings.clear();
+	}
+
+	void findRuns(Shape& shape)
+	{
+		m_runs.clear();
+		m_longer.assign(positionOf(m_cells + 1), 0);
+		for (int y = 0; y < shape.height; ++y) {
+			for (int last = 0;;) {
+				const int first = nextCell(m_rows[y], last, shape.width, true);
+				if (first == shape.width)
+					break;
+				last = nextCell(m_rows[y], first, shape.width, false);
+				m_runs.push_back({y, first, last, std::ilogb(last - first)});
+				++m_longer[positionOf(last - first - 1)];
+			}
+		}
+		double area = 0.0, x = 0.0, y = 0.0; // whole numbers
+		for (const Run& run : m_runs) {
+			const double length = run.last - run.first;
+			area += length;
+			x += length * (run.first + run.last);
+			y += length * run.row;
+		}
+		shape.x = static_cast<int>(0.5 * x / area);
+		shape.y = static_cast<int>(y / area);
+		shape.size = std::ilogb(area * area * area * area);
+		std::partial_sum(m_longer.rbegin(), m_longer.rend(), m_longer.rbegin());
+		shape.runs.resize(m_runs.size());
+		for (const Run& run : m_runs)
+			shape.runs[m_longer[positionOf(run.last - run.first)]++] = run;
+	}
+
+	int m_cells;
+	double m_cell, m_reach;                     // m_reach in cells
+	std::vector<std::array<Point2, 2>> m_sides; // in cells
+	Rows m_rows;
+	/// Rows, where in them, and 1 where the side runs down, the outline's inner side on its right.
+	std::vector<std::tuple<int, double, int>> m_crossings;
+	std::vector<Run> m_runs;
+	std::vector<std::size_t> m_longer; // [length] runs that are longer
+};
+
+/// Less is better: the side of the square, how far along an axis the shape reaches, and the square of its middle's
+/// distance from the corner.
+using Cost = std::array<int, 3>;
+
+struct Spot
+{
+	Cost cost{std::numeric_limits<int>::max(), 0, 0};
+	const Shape* shape = nullptr;
+	int x = 0, y = 0;
+};
+
+class Canvas
+{
+public:
+	explicit Canvas(int cells) :
+			m_cells(cells), m_levels(std::ilogb(cells) + 1), m_taken(cells * m_levels, cells),
+			m_blocked(1, cells)
+	{
+	}
+
+	int side() const { return m_side; }
+	long long work() const { return m_work; }
+
+	void clear()
+	{
+		m_taken.clear(m_side * m_levels);
+		m_side = 0;
+	}
+
+	/// Takes a better place of \p shape than \p best, if there is one.
+	/// \param least cells that it reaches along an axis; it is not looked for nearer
+	void look(const Shape& shape, int least, Spot& best)
+	{
+		m_runs = shape.runs;
+		for (int y = 0; y + shape.height <= farthest(best); ++y) {
+			const int end = farthest(best) - shape.width + 1; // of x
+			if (end <= 0)
+				return;
+			const int begin = y + shape.height < least ? std::max(least - shape.width, 0) : 0;
+			if (begin >= end)
+				continue;
+			std::uint64_t* blocked = m_blocked[0];
+			const int firstWord = begin / kWordBits, words = (end - 1) / kWordBits + 1;
+			std::fill(blocked + firstWord, blocked + words, 0);
+			fill(blocked, begin - begin % kWordBits, begin);
+			fill(blocked, end, words * kWordBits);
+			bool isFull = false;
+			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
+				isFull = block(m_runs[i], y, firstWord, words);
+				++m_work;
+				if (isFull)
+					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
+			}
+			if (isFull)
+				continue;
+			const int x = nextCell(blocked, begin, end, false);
+			const int right = x + shape.width, top = y + shape.height;
+			const int reach = std::max(right, top), toX = x + shape.x, toY = y + shape.y;
+			const Cost cost{std::max(m_side, reach), reach, toX * toX + toY * toY};
+			if (cost < best.cost)
+				best = {cost, &shape, x, y};
+		}
+	}
+
+	void take(const Spot& spot)
+	{
+		for (const Run& run : spot.shape->runs)
+			fill(rowAt(spot.y + run.row, 0), spot.x + run.first, spot.x + run.last);
+		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
+			for (int k = 0; k + 1 < m_levels; ++k) {
+				const std::uint64_t* half = rowAt(y, k);
+				for (int i = 0; i < m_cells / kWordBits; ++i) {
+					const int x = std::min(i * kWordBits + (1 << k), m_cells);
+					rowAt(y, k + 1)[i] = half[i] | bitsFrom(half + x / kWordBits, x % kWordBits);
+				}
+			}
+		m_side = spot.cost[0];
+	}
+
+private:
+	/// No place that reaches farther along an axis is better.
+	int farthest(const Spot& best) const
+	{
+		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, m_cells);
+	}
+
+	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
+
+	/// Adds the x at which \p run meets cells that are taken, in words from one to before \p words.
+	/// \return whether all are blocked now
+	bool block(const Run& run, int y, int firstWord, int words)
+	{
+		const std::uint64_t* taken = rowAt(y + run.row, run.level);
+		const int first = run.first, last = run.last - (1 << run.level);
+		std::uint64_t* blocked = m_blocked[0];
+		std::uint64_t all = ~std::uint64_t{0};
+		for (int i = firstWord; i < words; ++i)
+			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
+								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
+		return all == ~std::uint64_t{0};
+	}
+
+	int m_cells, m_levels;
+	Rows m_taken;            // [y, k] the x from which one of 2^k cells is taken
+	Rows m_blocked;          // one
+	std::vector<Run> m_runs; // of a shape, those that block most first
+	int m_side = 0;          // of the square that holds all
+	long long m_work = 0;
+};
+
+} // namespace ricci
+
+#endif

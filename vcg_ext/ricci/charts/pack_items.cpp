@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pack_items.h"
+
+#include "../base/parallel.h"
+#include "../base/tolerances.h"
+#include "boxes_side_by_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Charts that are placed by their outlines at most: the time for them grows faster than their number.
+constexpr std::size_t kMaxOutlines = 4096;
+
+/// A chart is placed by its outline if its box is longer than so many of the cells in which places are sought.
+constexpr double kMinOutlineCells = 3.0;
+
+Outline borderOf(const Box2& box)
+{
+	const Point2 &a = box.min, &c = box.max;
+	const Point2 b{c[0], a[1]}, d{a[0], c[1]};
+	return {{a, b}, {b, c}, {c, d}, {d, a}};
+}
+
+/// Adds one item for small charts, or one for each half of them if their box is too long.
+/// \pre no chart alone is longer
+void addBox(
+	const std::vector<std::size_t>& small,
+	const std::vector<Box2>& boxes,
+	const PackSquare& square,
+	PackItems& items)
+{
+	std::vector<Box2> own;
+	for (const std::size_t i : small)
+		own.push_back(boxes[i]);
+	const std::vector<Point2> shift = square.placeBoxes(own, square.padding);
+	Box2 all;
+	for (std::size_t k = 0; k < small.size(); ++k) {
+		all.add(own[k].min + shift[k]);
+		all.add(own[k].max + shift[k]);
+	}
+	if (all.extent() > square.longestBox && small.size() > 1) {
+		const auto middle = small.begin() + static_cast<std::ptrdiff_t>(small.size() / 2);
+		addBox({small.begin(), middle}, boxes, square, items);
+		addBox({middle, small.end()}, boxes, square, items);
+		return;
+	}
+	for (std::size_t k = 0; k < small.size(); ++k)
+		items.of[small[k]] = {items.outlines.size(), shift[k]};
+	items.outlines.push_back(borderOf(all));
+	items.turns.push_back(ChartTurns::Quarter); // their boxes stay upright
+}
+
+} // namespace
+
+void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
+{
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		mesh.place[p] = motions[positionOf(chart[p])](mesh.place[p]);
+}
+
+std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, FlatMesh& mesh)
+{
+	std::vector<char> isUpright(triangles.size(), 0);
+	std::vector<Motion> motions(triangles.size());
+	tasksInParallel(
+		static_cast<int>(triangles.size()), threadsFor(mesh.size() / 32), [&](int chart) {
+			const std::size_t i = positionOf(chart);
+			const std::complex<double> turn = uprightTurn(outlineOf(mesh, triangles[i]));
+			isUpright[i] = turn != 0.0;
+			if (isUpright[i])
+				motions[i].turn = turn;
+		});
+	moveCharts(motions, mesh);
+	return isUpright;
+}
+
+std::vector<char>
+widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<Box2>& boxes)
+{
+	std::vector<char> isThin(boxes.size(), 0);
+	for (std::size_t i = 0; i < boxes.size(); ++i) {
+		const double count = static_cast<double>(triangles[i].size());
+		const double room = side * (kBoxRoom * (1.0 + 0.25 * std::sqrt(count)));
+		for (std::size_t k = 0; k < 2; ++k)
+			if (const double length = boxes[i].max[k] - boxes[i].min[k];
+				length < kThinSide * room) {
+				boxes[i].min[k] -= 0.5 * room;
+				boxes[i].max[k] += 0.5 * room;
+				isThin[i] = isThin[i] || length < side * kBoxRoom;
+			}
+	}
+	return isThin;
+}
+
+PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
+{
+	const std::vector<Box2>& boxes = charts.boxes;
+	std::vector<std::size_t> order(boxes.size());
+	std::iota(order.begin(), order.end(), std::size_t{0});
+	const auto area = [&](std::size_t i) { return boxes[i].width() * boxes[i].height(); };
+	const double whole = square.side * square.side;
+	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return roundedShare(area(a), whole) > roundedShare(area(b), whole);
+	});
+	std::vector<std::size_t> large, small;
+	double areaOfLarge = 0.0, areaOfSmall = 0.0;
+	const double least = kMinOutlineCells * square.side / coarseCells(square.charts);
+	for (const std::size_t i : order) {
+		const bool isLarge =
+			large.size() < kMaxOutlines && !charts.isThin[i] && boxes[i].extent() > least;
+		(isLarge ? large : small).push_back(i);
+		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
+	}
+	PackItems items;
+	items.isMostlySmall = large.empty() || areaOfLarge < areaOfSmall;
+	items.of.resize(boxes.size());
+	items.outlines.resize(large.size());
+	tasksInParallel(
+		static_cast<int>(large.size()), threadsFor(charts.mesh.size() / 32), [&](int k) {
+			const std::size_t i = large[positionOf(k)];
+			Outline& outline = items.outlines[positionOf(k)];
+			outline = outlineOf(charts.mesh, charts.triangles[i]);
+			if (outline.empty()) // without area
+				outline = borderOf(boxes[i]);
+		});
+	for (const std::size_t i : large) {
+		items.of[i].item = items.turns.size();
+		items.turns.push_back(
+			charts.isUpright[i] ? std::min(charts.turns, ChartTurns::Quarter) : charts.turns);
+	}
+	if (!small.empty())
+		addBox(small, boxes, square, items);
+	return items;
+}
+
+} // namespace ricci
