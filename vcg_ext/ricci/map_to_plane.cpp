@@ -37,12 +37,13 @@ bool needsNoFlow(const Options& options)
 	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
 		   goalOf(options.cones) == ConeGoal::LeastCost &&
 		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
-		   options.output == OutputTriangulation::KeepMesh && options.charts != Charts::OfTheFlow;
+		   options.charts != Charts::OfTheFlow;
 }
 
 bool mayUnfold(const Component& component, const Options& options)
 {
-	return needsNoFlow(options) && component.lengths.empty() && !component.hasSeam;
+	return needsNoFlow(options) && !options.cones.onlyWhereNeeded && component.lengths.empty() &&
+		   !component.hasSeam;
 }
 
 double totalOf(const std::optional<Parametrization>& map)
@@ -187,7 +188,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 {
 	if (options.charts == Charts::AsGiven)
 		return givenMap(component, options.turns == ChartTurns::Free);
-	if (needsNoFlow(options))
+	// A refinement costs less than is expected, which is fitted to straight edges: there the maps decide.
+	const bool keepsMesh = options.output == OutputTriangulation::KeepMesh;
+	if (needsNoFlow(options) && keepsMesh)
 		if (auto given = rightGivenMap(component))
 			return givenOrFlow(component, input, options, *std::move(given));
 	const bool mayBeUnfolded = mayUnfold(component, options);
@@ -210,9 +213,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			unfolded = unfold(component, options, 1.0);
 	};
 
-	completePlan(options, totalOf(unfolded), plan);
+	completePlan(options, keepsMesh ? totalOf(unfolded) : kInfinity, plan);
 	plan = withCheaperHoles(component, input, options, std::move(plan));
-	if (plan.target.expected) {
+	if (plan.target.expected && keepsMesh) {
 		const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
 		const double cost = plan.target.expected->total();
 		unfoldIfPoor(cost);

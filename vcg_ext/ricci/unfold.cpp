@@ -90,7 +90,8 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	Options ofPieces = options;
 	ofPieces.finish =
 		Finish::Repair; // leaves free boundaries as long as they are, so that they join
-	ofPieces.holes = Holes::Boundaries; // they are pieces elsewhere
+	ofPieces.holes = Holes::Boundaries;              // they are pieces elsewhere
+	ofPieces.output = OutputTriangulation::KeepMesh; // both sides of a crease have the same points
 	Parametrization map = mapsOf(pieces, component, ofPieces);
 	connect(map.mesh); // across creases, too
 	separateCharts(ofPieces, map);
