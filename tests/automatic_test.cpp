@@ -456,6 +456,9 @@ TEST(PlacedCones, AreNoneThatACallerWouldKnowToBePoor)
 			Options options;
 			options.target = TargetCurvature::PlacedCones;
 			options.cones.rounding = rounding;
+			Options refined = options;
+			refined.output = OutputTriangulation::CommonRefinement;
+			EXPECT_LE(objective(refined), 3.0 * automatic);
 			const double own = objective(options);
 			EXPECT_LE(own, 3.0 * automatic);
 			for (const double distortion : {0.15, 0.25, 0.5}) {
