@@ -299,6 +299,7 @@ std::vector<TilePlace> packIntoTiles(
 	double padding)
 {
 	std::vector<double> areas; // of squares
+	areas.reserve(outlines.size());
 	for (const Outline& outline : outlines)
 		areas.push_back(areaOf(outline) / (side * side));
 	const double squares = std::max(1.0, std::accumulate(areas.begin(), areas.end(), 0.0));

@@ -341,8 +341,9 @@ public:
 		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
 			const TilePlace& at = places[items.of[i].item];
 			motions.push_back(items.motionOf(i, at.motion));
-			motions.back().shift += std::complex<double>(
-				0.5 * m_padding + at.tile % kTilesInRow, 0.5 * m_padding + at.tile / kTilesInRow);
+			const int column = at.tile % kTilesInRow, row = at.tile / kTilesInRow;
+			motions.back().shift +=
+				std::complex<double>(0.5 * m_padding + column, 0.5 * m_padding + row);
 			m_map.report.tiles = std::max(m_map.report.tiles, at.tile + 1);
 		}
 		if (m_map.report.tiles > kMaxTiles)

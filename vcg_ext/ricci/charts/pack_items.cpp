@@ -37,6 +37,7 @@ void addBox(
 	PackItems& items)
 {
 	std::vector<Box2> own;
+	own.reserve(small.size());
 	for (const std::size_t i : small)
 		own.push_back(boxes[i]);
 	const std::vector<Point2> shift = square.placeBoxes(own, square.padding);
