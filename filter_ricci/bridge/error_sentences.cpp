@@ -100,6 +100,11 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::SeamHiding:
 		return number("seam_hiding", "a number from 0 to 1");
 	case Error::TileSide:
+		if (e.bound > 0.0 && e.value > e.bound)
+			return "With this {texel_density} the whole layout is only a few texels wide: raise it "
+				   "by "
+				   "a factor of " +
+				   numberText(1.001 * e.value / e.bound, 4) + " at least.";
 		return "With this {texel_density} a tile is " + numberText(e.value, 4) +
 			   " units of length wide, but a chart that cannot be cut, or the " +
 			   std::to_string(ricci::kMaxTiles) + " tiles at most, need " + numberText(e.bound, 4) +

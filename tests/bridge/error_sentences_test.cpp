@@ -128,6 +128,7 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::CornersOffBoundary, {"61"}},
 		{InvalidOption::SphereOfComponents, {"61"}}};
 	expectSentence(InvalidOption("method", 99, 4), {"method", "99", "3"});
+	expectSentence(InvalidOption(InvalidOption::TileSide, 5000.0, 1000.0), {"5.005"});
 	for (int i = InvalidOption::TimeLimit; i <= InvalidOption::CoverTooLarge; ++i) {
 		const auto problem = static_cast<InvalidOption::Problem>(i);
 		expectSentence(InvalidOption(problem, -17.0, 23.0, 61), numbers[i]);

@@ -559,22 +559,27 @@ TEST(Tiles, AreNotCutForWhereOneHoldsAll)
 	EXPECT_NEAR(map.report.occupancy, areaOf(mesh) / 1e4, 1e-9);
 }
 
-/// The side that a refusal names is enough.
-TEST(Tiles, ThatAreTooSmallAreRefusedWithASideThatIsEnough)
+/// The side that a refusal names will do.
+TEST(Tiles, ThatAreTooSmallOrTooLargeAreRefusedWithASideThatWillDo)
 {
 	const SurfaceMesh mesh = rectangle(20, 20, 20.0, 20.0);
 	Options disk = inTiles(5.0, 0.02, Charts::OfTheFlow);
 	disk.target = TargetCurvature::Disk;
-	for (Options options : {disk, inTiles(1.5, 0.02, Charts::WithoutOverlap)}) {
+	for (Options options :
+		 {disk,
+		  inTiles(1.5, 0.02, Charts::WithoutOverlap),
+		  inTiles(1e6, 0.02, Charts::OfTheFlow)}) {
 		const auto refusal =
 			refusalOf<InvalidOption>([&] { parametrizeEuclidean(mesh, {}, options); });
 		EXPECT_EQ(refusal.problem, InvalidOption::TileSide);
 		EXPECT_EQ(refusal.value, options.tileSide);
-		ASSERT_GT(refusal.bound, options.tileSide);
-		options.tileSide = refusal.bound * (1.0 + 1e-9);
+		const bool isTooLarge = options.tileSide > 100.0;
+		ASSERT_EQ(refusal.bound < options.tileSide, isTooLarge);
+		options.tileSide = refusal.bound * (isTooLarge ? 1.0 - 1e-9 : 1.0 + 1e-9);
 		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
 		expectInTiles(map, 0.02);
-		EXPECT_EQ(map.report.tiles == 1, options.target == TargetCurvature::Disk);
+		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, 0);
+		EXPECT_EQ(map.report.tiles > 1, options.tileSide < 5.0);
 	}
 }
 

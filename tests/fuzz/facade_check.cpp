@@ -323,8 +323,9 @@ std::string miscounted(
 		   std::to_string(result.report.flippedByRounding);
 }
 
+/// \param squares in which coordinates have to lie, side by side in both directions; 0: anywhere
 template<class Mesh>
-std::string defectOfWritten(Mesh& m, bool normalized)
+std::string defectOfWritten(Mesh& m, int squares)
 {
 	for (const auto& face : m.face) {
 		if (face.IsD())
@@ -333,7 +334,8 @@ std::string defectOfWritten(Mesh& m, bool normalized)
 			if (face.cV(k)->IsD())
 				return "a face has a deleted vertex";
 			for (float x : {face.cWT(k).U(), face.cWT(k).V()})
-				if (!std::isfinite(x) || (normalized && !(x >= 0.0f && x <= 1.0f)))
+				if (!std::isfinite(x) ||
+					(squares > 0 && !(x >= 0.0f && x <= static_cast<float>(squares))))
 					return "a texture coordinate is " + std::to_string(x);
 		}
 	}
@@ -545,7 +547,9 @@ Execution run(const HostileMesh& hostile)
 		Flow::WriteWedgeTexCoord(m, result);
 		Flow::WriteVertexQuality(m, result);
 	}
-	execution.defect = defectOfWritten(m, hostile.normalizeUV || hostile.hyperbolic);
+	const bool isPacked = hostile.normalizeUV || hostile.hyperbolic;
+	const bool hasTiles = !hostile.hyperbolic && hostile.options.tileSide > 0.0;
+	execution.defect = defectOfWritten(m, isPacked ? (hasTiles ? kTilesInRow : 1) : 0);
 	if (execution.defect.empty() && shapeOf(m, vertices, !refined) != shape)
 		execution.defect = "the mesh is not what it was";
 	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(result, flat);

@@ -477,6 +477,12 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 	if (bytes.oneIn(8))
 		options.sharpAngle = hyperbolicOptions.sharpAngle =
 			bytes.oneIn(16) ? awkward(bytes) : bytes.real(0.0, kPi);
+	if (bytes.oneIn(8)) {
+		Box2 box;
+		for (const Point3& p : mesh.positions)
+			box.add(Point2{p[0], p[1]});
+		options.tileSide = bytes.oneIn(16) ? awkward(bytes) : bytes.real(0.1, 2.0) * box.extent();
+	}
 }
 
 /// Another mesh, or a change of this one, behind everything else like the rarer options. Most of them

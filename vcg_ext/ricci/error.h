@@ -87,7 +87,7 @@ public:
 		ConeAngle,              ///< value in radians; must be above 0 and finite
 		SeamHiding,             ///< value; must be in [0, 1]
 		ChartMargin,            ///< value; must be in [0, bound]
-		TileSide,               ///< value; must be 0, or finite and at least bound
+		TileSide,               ///< value; 0 would do, or one on the other side of bound
 		TilesInOwnScale,        ///< tiles belong to PackOptions::normalizeUV
 		WithoutFlips,           ///< the common refinement and capped holes belong to flips
 		WithoutPositions,       ///< of a surface given by lengths; see flatten()

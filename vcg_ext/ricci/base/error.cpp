@@ -96,8 +96,9 @@ std::string words(const InvalidOption& e)
 		return "The margin between charts must be between 0 and " + number(e.bound) + ", not " +
 			   number(e.value);
 	case InvalidOption::TileSide:
-		return "The side of tiles must be 0, or finite and at least " + number(e.bound) + ", not " +
-			   number(e.value);
+		return "The side of tiles must be 0, or finite and at " +
+			   std::string(e.bound > 0.0 && e.value > e.bound ? "most " : "least ") +
+			   number(e.bound) + ", not " + number(e.value);
 	case InvalidOption::TilesInOwnScale:
 		return "Tiles are squares of side 1, in which coordinates cannot keep the scale of the "
 			   "mesh";

@@ -295,6 +295,8 @@ public:
 		const double area = map.mesh.area(), covered = coveredArea(map.mesh);
 		if (area > kMaxTiles * options.tileSide * options.tileSide)
 			refuse(std::sqrt(area / (kLeastFilled * kMaxTiles)));
+		if (options.tileSide > kLargest * std::sqrt(area))
+			refuse(kLargest * std::sqrt(area));
 		if (covered > 0.0)
 			scaleBy(std::sqrt(area / covered) / options.tileSide, map);
 		measure();
@@ -354,9 +356,9 @@ public:
 	}
 
 private:
-	[[noreturn]] void refuse(double least) const
+	[[noreturn]] void refuse(double bound) const
 	{
-		throw InvalidOption(InvalidOption::TileSide, m_options.tileSide, least);
+		throw InvalidOption(InvalidOption::TileSide, m_options.tileSide, bound);
 	}
 
 	void measure()
@@ -394,6 +396,9 @@ private:
 
 	/// Charts hardly ever cover less of the tiles; and so many times the area in one is enough where it was too little.
 	static constexpr double kLeastFilled = 1.0 / 3.0, kMore = 1.5;
+
+	/// In a tile larger than so many square roots of the area floats would leave little of a chart.
+	static constexpr double kLargest = 1000.0;
 
 	/// Boxes of small charts are no longer, so that they find room beside others.
 	static constexpr double kLongestBox = 0.25;

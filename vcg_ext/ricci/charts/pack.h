@@ -37,8 +37,8 @@ bool marginsMayFit(std::size_t charts, double margin);
 ///
 /// Without PackOptions::normalizeUV all this is scaled back to the size that the charts had. A single chart then is not
 /// turned.
-/// \throw InvalidOption ChartMargin, BoxPlaces, TileSide for a chart that is too long and cannot be cut, or more than
-/// kMaxTiles tiles; InvalidMesh BeyondFloats if coordinates that keep their scale are too
+/// \throw InvalidOption ChartMargin, BoxPlaces, TileSide for a chart that is too long and cannot be cut, more than
+/// kMaxTiles tiles, or tiles too large for floats; InvalidMesh BeyondFloats if coordinates that keep their scale are too
 /// large or too small for float, in which they will be stored
 void packCharts(
 	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
