@@ -547,6 +547,39 @@ TEST(Tiles, TakeChartsInPiecesThatAreTooLong)
 	}
 }
 
+/// Directions of the sides stay what they are in one square.
+TEST(Tiles, TakeChartsAsTheyLieWhereTheseDoNotTurn)
+{
+	SurfaceMesh mesh = rectangle(48, 24, 9.6, 4.8);
+	for (const double side : {0.0, 3.0}) {
+		Options options = inTiles(side, 0.01, Charts::WithoutOverlap);
+		options.turns = ChartTurns::None;
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		const Triangle2 first = map.mesh.at(0);
+		const std::complex<double> own = asComplex(first[1] - first[0]);
+		for (int f = 0; f < map.mesh.size(); f += 2) { // the lower triangles of the cells
+			const Triangle2 t = map.mesh.at(f);
+			EXPECT_LT(std::abs(asComplex(t[1] - t[0]) / own - 1.0), 1e-5);
+		}
+	}
+}
+
+/// A chart of three turns that lie on each other has a larger area than the tile that holds it.
+TEST(Tiles, HoldChartsThatCoverThemselves)
+{
+	const SurfaceMesh ramp = grid(90, 4, Ends::Open, Ends::Open, [](int i, int j) {
+		const double angle = 6 * kPi * i / 90.0, r = 1.0 - 0.2 * j;
+		return Point3{r * std::cos(angle), r * std::sin(angle), 0.02 * angle};
+	});
+	Options options = inTiles(2.3, 0.01, Charts::OfTheFlow);
+	options.cones.onlyWhereNeeded = true;
+	const Parametrization map = parametrizeEuclidean(ramp, {}, options);
+	ASSERT_GT(areaOf(ramp), 2.3 * 2.3);
+	EXPECT_EQ(map.charts.size(), 1u);
+	EXPECT_EQ(map.report.tiles, 1);
+	expectInTiles(map, 0.01);
+}
+
 TEST(Tiles, AreNotCutForWhereOneHoldsAll)
 {
 	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 12);

@@ -193,8 +193,8 @@ class Flattening(Parametrization):
     stored floats, because flipped faces next to them were repaired or by finish Least
     stretch"""
     overlap_cuts: int
-    """output edges cut to separate these, to pack better, or around faces that floats cannot
-    represent in their chart; parts joined elsewhere reduce seam_edges"""
+    """output edges cut to separate these, to pack better, to fit into tiles, or around faces
+    that floats cannot represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
     """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float
@@ -349,8 +349,8 @@ class Uniformization(Parametrization):
     stored floats, because flipped faces next to them were repaired or by finish Least
     stretch"""
     overlap_cuts: int
-    """output edges cut to separate these, to pack better, or around faces that floats cannot
-    represent in their chart; parts joined elsewhere reduce seam_edges"""
+    """output edges cut to separate these, to pack better, to fit into tiles, or around faces
+    that floats cannot represent in their chart; parts joined elsewhere reduce seam_edges"""
     seam_length: float
     """length of seam_edges and overlap_cuts on the mesh, in its units"""
     seam_length_relative: float

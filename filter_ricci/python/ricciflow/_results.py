@@ -105,9 +105,9 @@ EUCLIDEAN_RESULTS = \
                    '1/1000 in the stored floats, because flipped faces next to them were '
                    'repaired or by finish Least stretch'),
  'overlap_cuts': ('int',
-                  'output edges cut to separate these, to pack better, or around faces that '
-                  'floats cannot represent in their chart; parts joined elsewhere reduce '
-                  'seam_edges'),
+                  'output edges cut to separate these, to pack better, to fit into tiles, or '
+                  'around faces that floats cannot represent in their chart; parts joined '
+                  'elsewhere reduce seam_edges'),
  'seam_length': ('float', 'length of seam_edges and overlap_cuts on the mesh, in its units'),
  'seam_length_relative': ('float', 'the same, over the square root of its area'),
  'torus_tau_re': ('float', 'flat torus: real part of its modulus in the fundamental domain'),

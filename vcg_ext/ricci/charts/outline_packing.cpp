@@ -211,7 +211,7 @@ int coarseCells(std::size_t outlines)
 	return std::clamp(wanted, kMinCoarse, kMaxCoarse) / kWordBits * kWordBits;
 }
 
-std::size_t tileShare(std::size_t outlines, double squares)
+std::size_t outlinesPerSquare(std::size_t outlines, double squares)
 {
 	const double share = std::ceil(static_cast<double>(outlines) / std::max(squares, 1.0));
 	return static_cast<std::size_t>(share);
@@ -303,7 +303,7 @@ std::vector<TilePlace> packIntoTiles(
 	for (const Outline& outline : outlines)
 		areas.push_back(areaOf(outline) / (side * side));
 	const double squares = std::max(1.0, std::accumulate(areas.begin(), areas.end(), 0.0));
-	const std::size_t inSquare = tileShare(outlines.size(), squares);
+	const std::size_t inSquare = outlinesPerSquare(outlines.size(), squares);
 	const ShapeRules rules{
 		kFineInCoarse * coarseCells(inSquare), side, 0.5 * padding, anglesFor(inSquare)};
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
@@ -323,7 +323,10 @@ std::vector<TilePlace> packIntoTiles(
 			if (shapes[i].empty())
 				return {};
 			TilePlace& place = places[i];
-			if (areas[i] > room || placer.put(shapes[i], rules.cells + 1, place.motion) == 0) {
+			// An outline that covers itself may have a larger area than the square.
+			const bool isFirst = room == 1.0;
+			if ((areas[i] > room && !isFirst) ||
+				placer.put(shapes[i], rules.cells + 1, place.motion) == 0) {
 				next.push_back(i);
 				continue;
 			}

@@ -49,7 +49,7 @@ std::vector<Motion> packOutlines(
 	double padding);
 
 /// How many of so many outlines lie in one of the squares that their areas need.
-std::size_t tileShare(std::size_t outlines, double squares);
+std::size_t outlinesPerSquare(std::size_t outlines, double squares);
 
 /// Where an outline lies in packIntoTiles().
 struct TilePlace

@@ -163,6 +163,8 @@ void requireFloats(const Array<Point2>& places)
 		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
 
+/// The packer of boxes that was asked for.
+/// \throw InvalidOption BoxPlaces when it is called and gives another number of places
 PlaceBoxes checkedPlaces(const PackOptions& options)
 {
 	return [asked = options.placeBoxes ? options.placeBoxes : PlaceBoxes(sideBySide)](
@@ -313,7 +315,10 @@ public:
 				if (!cut)
 					refuse(m_options.tileSide * m_extents[chart] / m_room);
 				cut->chart = static_cast<int>(chart);
-				cutChart(*cut, m_turns == ChartTurns::Free, m_map);
+				cutChart(
+					*cut,
+					m_turns == ChartTurns::Free && m_options.turns != ChartTurns::None,
+					m_map);
 			}
 			measure();
 		}
@@ -331,7 +336,7 @@ public:
 			{m_map.mesh, m_triangles, m_boxes, m_isThin, m_isUpright, m_mayTurn},
 			{side,
 			 m_padding,
-			 tileShare(m_boxes.size(), coveredArea(m_map.mesh)),
+			 outlinesPerSquare(m_boxes.size(), coveredArea(m_map.mesh)),
 			 kLongestBox,
 			 placeBoxes});
 		const std::vector<TilePlace> places =
@@ -394,7 +399,8 @@ private:
 		return tooLong;
 	}
 
-	/// Charts hardly ever cover less of the tiles; and so many times the area in one is enough where it was too little.
+	/// What a refusal suggests: tiles of which charts are likely to fill this share at least; and where charts took too
+	/// many tiles, an area of each that is larger than would be enough by this factor.
 	static constexpr double kLeastFilled = 1.0 / 3.0, kMore = 1.5;
 
 	/// In a tile larger than so many square roots of the area floats would leave little of a chart.
