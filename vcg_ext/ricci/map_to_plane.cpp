@@ -31,6 +31,11 @@ constexpr double kPoorCost = 6.0;
 constexpr double kSpreadsInstead[] = {0.5, 0.25, 0.125, 0.0625, 0.03125};
 constexpr double kBrokenPromise = 0.05;
 
+/// Capped holes are tried where the seams to them make at least this share of what the map is expected to cost above an
+/// isometry, or the map is poor. Of 92 components of shared meshes the 15 that gain have 0.37 and more, or are poor;
+/// the plan of a second target takes a third of the time of a large mesh.
+constexpr double kMinShareOfHoles = 0.25;
+
 /// Whether Automatic may do without a flow of a whole component: nothing but the default has been asked for that it
 /// would have to give.
 bool needsNoFlow(const Options& options)
@@ -135,6 +140,9 @@ FlowPlan withCheaperHoles(
 		!plan.target.expected)
 		return plan;
 	const double cost = plan.target.expected->total();
+	const double ofHoles = kSeamPrice * plan.target.seamsWithout;
+	if (cost <= kPoorCost && ofHoles < kMinShareOfHoles * (cost - expectedEnergy(0.0)))
+		return plan;
 	auto capped = attempt("the holes stay boundaries", [&] {
 		Options other = options;
 		other.holes = Holes::Capped;

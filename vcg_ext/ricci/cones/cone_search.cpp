@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -165,6 +166,39 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	return !best.empty() && best.front() != old && move(model, i, best, present);
 }
 
+/// The sites around others, nearest first, with the lengths of the shortest ways there. Each is searched once: most
+/// cones stay where they are for several rounds.
+class Surroundings
+{
+public:
+	/// \param far how far they go
+	Surroundings(const ConeSites& sites, double far) :
+			m_sites(sites), m_far(far), m_front(sites.toCut().size())
+	{
+	}
+
+	const std::vector<ConeSites::Way>& of(Vertex site)
+	{
+		const auto [known, isNew] = m_known.try_emplace(site);
+		if (!isNew)
+			return known->second;
+		m_front.clear();
+		m_front.offer(site, 0.0);
+		for (Vertex v = m_front.next(m_far); v.isValid(); v = m_front.next(m_far)) {
+			known->second.push_back({v, m_front[v]});
+			for (const ConeSites::Way& way : m_sites.ways(v))
+				m_front.offer(way.to, m_front[v] + way.length, v);
+		}
+		return known->second;
+	}
+
+private:
+	const ConeSites& m_sites;
+	double m_far;
+	SearchFront<Vertex, Vertex> m_front;
+	std::map<Vertex, std::vector<ConeSites::Way>> m_known;
+};
+
 /// Moves cone \p i to a place around where energy and price of seams are lower.
 /// \param tree without the cone, \p own shorter than with it
 /// \return whether it has moved
@@ -172,6 +206,7 @@ bool moveNearby(
 	ConeModel& model,
 	const SeamTree& tree,
 	const ConeSites& sites,
+	Surroundings& around,
 	int i,
 	double own,
 	double maxEnergy)
@@ -180,17 +215,11 @@ bool moveNearby(
 	const Vertex old = model.vertex(i);
 	const VertexVector& phi = model.gradient();
 	std::vector<std::pair<double, Vertex>> places; // change that is predicted
-	SearchFront<Vertex, Vertex> front(static_cast<int>(phi.size()));
-	front.offer(old, 0.0);
-	const double far = std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size()));
-	for (Vertex v = front.next(far); v.isValid(); v = front.next(far)) {
-		for (const ConeSites::Way& way : sites.ways(v))
-			front.offer(way.to, front[v] + way.length, v);
+	for (const auto& [v, r] : around.of(old)) {
 		if (model.isCone(v) || !sites.isAllowed(v))
 			continue;
 		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
 		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
-		const double r = front[v];
 		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
 		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
 		const double change = coneCost(rise, tree.distance(v) - own, 0);
@@ -307,11 +336,12 @@ void removeWeakCones(ConeModel& model)
 void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion)
 {
 	const double maxEnergy = 0.25 * maxDistortion * maxDistortion;
+	Surroundings around(sites, std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size())));
 	for (int round = 0; round < kMaxRounds; ++round) {
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i) {
 			const double own = tree.remove(model.vertex(i));
-			hasMoved |= moveNearby(model, tree, sites, i, own, maxEnergy);
+			hasMoved |= moveNearby(model, tree, sites, around, i, own, maxEnergy);
 			tree.add(model.vertex(i));
 		}
 		if (!hasMoved)

@@ -186,11 +186,11 @@ Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 			if (m_row[v] >= 0)
 				rows(m_row[v], k) = rhs(v.number(), k);
 	if (m_unknowns > 0)
-		rows = m_softness * (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
+		rows = (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
 	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
 	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
 		for (const Vertex v : m_row.indices())
-			x(v.number(), k) = m_row[v] >= 0 ? rows(m_row[v], k) : 0.0;
+			x(v.number(), k) = m_row[v] >= 0 ? m_softness * rows(m_row[v], k) : 0.0;
 	return x;
 }
 

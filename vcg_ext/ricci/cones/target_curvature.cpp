@@ -277,7 +277,8 @@ void choosePlainOrCones(
 		isFlat ? placeCones(surface, start, request) : placeCones(surface, flow, request);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	const bool goesBySpread = request.goal() == ConeGoal::Spread;
-	MapCost plain{expectedEnergy(spread), cones->seamsWithout};
+	target.seamsWithout = cones->seamsWithout;
+	MapCost plain{expectedEnergy(spread), target.seamsWithout};
 	const bool isKept = goesBySpread ? spread <= request.options.cones.distortion
 									 : plain.energy - expectedEnergy(0.0) < kConePrice;
 	if (isKept)

@@ -73,6 +73,7 @@ struct Target
 	bool circular = false;   ///< boundary curvature to be adapted to a round disk
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
 	std::optional<MapCost> expected; ///< where it was chosen to cost least, or to keep areas
+	double seamsWithout = 0.0;       ///< see PlacedCones; 0 where cones were not considered
 	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
 	TargetUsed used = TargetUsed::Prescribed;
 	std::optional<double> expectedSpread; ///< see Report

@@ -78,7 +78,9 @@ private:
 		int number; ///< in the graph
 		int firstArc = -1;
 		int parentArc = -1; ///< none for roots, orphans and free nodes
-		int distance = 0;   ///< edges to the root, at the time of the mark
+		int parent =
+			-1; ///< the node to which that leads: paths are long, and walked without their arcs
+		int distance = 0; ///< edges to the root, at the time of the mark
 		int mark = 0;
 		Tree tree = kNone;
 		bool isRoot = false;
@@ -151,6 +153,7 @@ private:
 					if (!other.isRoot && other.mark <= own.mark && other.distance > own.distance) {
 						// A shorter way.
 						other.parentArc = a ^ 1;
+						other.parent = node;
 						other.mark = own.mark;
 						other.distance = own.distance + 1;
 					}
@@ -159,6 +162,7 @@ private:
 				if (other.tree == kNone) {
 					other.tree = tree;
 					other.parentArc = a ^ 1;
+					other.parent = node;
 					other.mark = own.mark;
 					other.distance = own.distance + 1;
 					activate(m_arcs[a].to);
@@ -181,8 +185,7 @@ private:
 		std::int64_t amount = m_arcs[arc].capacity;
 		const int ends[2] = {m_arcs[arc ^ 1].to, m_arcs[arc].to};
 		for (const Tree tree : {kSources, kSinks})
-			for (int node = ends[tree]; m_nodes[node].parentArc >= 0;
-				 node = m_arcs[m_nodes[node].parentArc].to)
+			for (int node = ends[tree]; m_nodes[node].parentArc >= 0; node = m_nodes[node].parent)
 				amount = std::min(amount, towards(m_nodes[node].parentArc ^ 1, tree));
 		m_arcs[arc].capacity -= amount;
 		m_arcs[arc ^ 1].capacity += amount;
@@ -194,7 +197,7 @@ private:
 	void pushBack(int node, Tree tree, std::int64_t amount)
 	{
 		while (m_nodes[node].parentArc >= 0) {
-			const int up = m_nodes[node].parentArc;
+			const int up = m_nodes[node].parentArc, next = m_nodes[node].parent;
 			const int along = tree == kSources ? up ^ 1 : up;
 			m_arcs[along].capacity -= amount;
 			m_arcs[along ^ 1].capacity += amount;
@@ -202,7 +205,7 @@ private:
 				m_nodes[node].parentArc = -1;
 				m_orphans.push_back(node);
 			}
-			node = m_arcs[up].to;
+			node = next;
 		}
 	}
 
@@ -224,6 +227,7 @@ private:
 					}
 			m_nodes[node].parentArc = parent;
 			if (parent >= 0) {
+				m_nodes[node].parent = m_arcs[parent].to;
 				m_nodes[node].mark = m_mark;
 				m_nodes[node].distance = nearest + 1;
 				continue;
@@ -247,7 +251,7 @@ private:
 	int distanceOf(int node)
 	{
 		int steps = 0, i = node;
-		for (; m_nodes[i].mark != m_mark; i = m_arcs[m_nodes[i].parentArc].to, ++steps) {
+		for (; m_nodes[i].mark != m_mark; i = m_nodes[i].parent, ++steps) {
 			if (m_nodes[i].isRoot) {
 				m_nodes[i].mark = m_mark;
 				m_nodes[i].distance = 0;
@@ -258,7 +262,7 @@ private:
 		}
 		const int distance = m_nodes[i].distance + steps;
 		int d = distance;
-		for (i = node; m_nodes[i].mark != m_mark; i = m_arcs[m_nodes[i].parentArc].to) {
+		for (i = node; m_nodes[i].mark != m_mark; i = m_nodes[i].parent) {
 			m_nodes[i].mark = m_mark;
 			m_nodes[i].distance = d--;
 		}

@@ -361,27 +361,32 @@ void SparseCholesky::solveOrdered(Eigen::VectorXd& x)
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs)
 {
-	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order.position);
-	Eigen::MatrixXd x = order * rhs;
+	const Eigen::VectorXi& position = m_order.position;
+	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
 	if (x.rows() == 0)
 		return x;
 	Eigen::Index column = 0;
+	Eigen::VectorXcd pair(rhs.cols() > 1 ? x.rows() : 0);
 	for (; column + 2 <= x.cols(); column += 2) {
-		Eigen::VectorXcd pair(x.rows());
-		pair.real() = x.col(column);
-		pair.imag() = x.col(column + 1);
+		for (Eigen::Index i = 0; i < x.rows(); ++i)
+			pair[position[i]] = {rhs(i, column), rhs(i, column + 1)};
 		m_implementation->solve(pair);
 		m_work.solutions += 2;
 		m_work.flops += 8.0 * factorEntries();
-		x.col(column) = pair.real();
-		x.col(column + 1) = pair.imag();
+		for (Eigen::Index i = 0; i < x.rows(); ++i) {
+			x(i, column) = pair[position[i]].real();
+			x(i, column + 1) = pair[position[i]].imag();
+		}
 	}
 	if (column < x.cols()) {
-		Eigen::VectorXd last = x.col(column);
+		Eigen::VectorXd last(x.rows());
+		for (Eigen::Index i = 0; i < x.rows(); ++i)
+			last[position[i]] = rhs(i, column);
 		solveOrdered(last);
-		x.col(column) = last;
+		for (Eigen::Index i = 0; i < x.rows(); ++i)
+			x(i, column) = last[position[i]];
 	}
-	return order.transpose() * x;
+	return x;
 }
 
 int SparseCholesky::iterate(
