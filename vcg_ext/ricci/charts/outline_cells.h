@@ -15,7 +15,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,6 +36,7 @@ public:
 		return m_bits.data() + positionOf(row * m_words);
 	}
 	void clear(int rows) { std::fill_n(m_bits.begin(), rows * m_words, 0); }
+	int words() const { return m_words; } ///< of a row
 
 private:
 	int m_words;
@@ -108,7 +108,8 @@ class Drawing
 public:
 	/// \param reach taken, too: what is nearer than this along both axes
 	Drawing(int cells, double side, double reach) :
-			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells)
+			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells),
+			m_crossings(positionOf(cells))
 	{
 	}
 
@@ -138,7 +139,7 @@ public:
 					(p[1] + shape.motion.shift.imag()) / m_cell};
 			drawSide(side, shape);
 		}
-		fillBetween();
+		fillBetween(shape.height);
 		findRuns(shape);
 		return true;
 	}
@@ -168,22 +169,23 @@ private:
 				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
 			const double middle = y + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings.emplace_back(y, xAt(middle), up ? -1 : 1);
+				m_crossings[positionOf(y)].emplace_back(xAt(middle), up ? -1 : 1);
 		}
 	}
 
-	void fillBetween()
+	void fillBetween(int height)
 	{
-		std::sort(m_crossings.begin(), m_crossings.end());
-		int turns = 0; // 0 again at the end of each row
-		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
-			const auto& [row, x, turn] = m_crossings[i];
-			const auto& next = m_crossings[i + 1];
-			turns = row == std::get<0>(next) ? turns + turn : 0;
-			if (turns != 0)
-				fill(m_rows[row], cellAt(x), cellAt(std::get<1>(next)) + 1);
+		for (int y = 0; y < height; ++y) {
+			auto& crossings = m_crossings[positionOf(y)];
+			std::sort(crossings.begin(), crossings.end());
+			int turns = 0; // 0 again at the end
+			for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
+				turns += crossings[i].second;
+				if (turns != 0)
+					fill(m_rows[y], cellAt(crossings[i].first), cellAt(crossings[i + 1].first) + 1);
+			}
+			crossings.clear();
 		}
-		m_crossings.clear();
 	}
 
 	void findRuns(Shape& shape)
@@ -220,8 +222,8 @@ private:
 	double m_cell, m_reach;                     // m_reach in cells
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
 	Rows m_rows;
-	/// Rows, where in them, and 1 where the side runs down, the outline's inner side on its right.
-	std::vector<std::tuple<int, double, int>> m_crossings;
+	/// [row] where sides cross its middle, and 1 where one runs down, the outline's inner side on its right.
+	std::vector<std::vector<std::pair<double, int>>> m_crossings;
 	std::vector<Run> m_runs;
 	std::vector<std::size_t> m_longer; // [length] runs that are longer
 };
@@ -241,8 +243,7 @@ class Canvas
 {
 public:
 	explicit Canvas(int cells) :
-			m_cells(cells), m_levels(std::ilogb(cells) + 1), m_taken(cells * m_levels, cells),
-			m_blocked(1, cells)
+			m_cells(cells), m_levels(std::ilogb(cells) + 1), m_taken(cells * m_levels, cells)
 	{
 	}
 
@@ -259,29 +260,18 @@ public:
 	/// \param least cells that it reaches along an axis; it is not looked for nearer
 	void look(const Shape& shape, int least, Spot& best)
 	{
-		m_runs = shape.runs;
+		m_blockers.clear();
+		for (const Run& run : shape.runs)
+			m_blockers.push_back(
+				{blockerAt(run, run.first), blockerAt(run, run.last - (1 << run.level))});
 		for (int y = 0; y + shape.height <= farthest(best); ++y) {
 			const int end = farthest(best) - shape.width + 1; // of x
 			if (end <= 0)
 				return;
 			const int begin = y + shape.height < least ? std::max(least - shape.width, 0) : 0;
-			if (begin >= end)
+			const int x = begin < end ? firstFree(y, begin, end) : end;
+			if (x == end)
 				continue;
-			std::uint64_t* blocked = m_blocked[0];
-			const int firstWord = begin / kWordBits, words = (end - 1) / kWordBits + 1;
-			std::fill(blocked + firstWord, blocked + words, 0);
-			fill(blocked, begin - begin % kWordBits, begin);
-			fill(blocked, end, words * kWordBits);
-			bool isFull = false;
-			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
-				isFull = block(m_runs[i], y, firstWord, words);
-				++m_work;
-				if (isFull)
-					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
-			}
-			if (isFull)
-				continue;
-			const int x = nextCell(blocked, begin, end, false);
 			const int right = x + shape.width, top = y + shape.height;
 			const int reach = std::max(right, top), toX = x + shape.x, toY = y + shape.y;
 			const Cost cost{std::max(m_side, reach), reach, toX * toX + toY * toY};
@@ -294,10 +284,12 @@ public:
 	{
 		for (const Run& run : spot.shape->runs)
 			fill(rowAt(spot.y + run.row, 0), spot.x + run.first, spot.x + run.last);
+		const int last =
+			std::min((spot.x + spot.shape->width) / kWordBits + 1, m_cells / kWordBits);
 		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
 			for (int k = 0; k + 1 < m_levels; ++k) {
 				const std::uint64_t* half = rowAt(y, k);
-				for (int i = 0; i < m_cells / kWordBits; ++i) {
+				for (int i = std::max(spot.x - (2 << k), 0) / kWordBits; i < last; ++i) {
 					const int x = std::min(i * kWordBits + (1 << k), m_cells);
 					rowAt(y, k + 1)[i] = half[i] | bitsFrom(half + x / kWordBits, x % kWordBits);
 				}
@@ -314,25 +306,47 @@ private:
 
 	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
 
-	/// Adds the x at which \p run meets cells that are taken, in words from one to before \p words.
-	/// \return whether all are blocked now
-	bool block(const Run& run, int y, int firstWord, int words)
+	/// Half of a run, for a shape in the corner: where the x begin at which it meets cells that are taken.
+	struct Blocker
 	{
-		const std::uint64_t* taken = rowAt(y + run.row, run.level);
-		const int first = run.first, last = run.last - (1 << run.level);
-		std::uint64_t* blocked = m_blocked[0];
-		std::uint64_t all = ~std::uint64_t{0};
-		for (int i = firstWord; i < words; ++i)
-			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
-								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
-		return all == ~std::uint64_t{0};
+		std::ptrdiff_t word; ///< from the start of the row of the shape's corner
+		int bit;
+	};
+	Blocker blockerAt(const Run& run, int first) const
+	{
+		const std::ptrdiff_t row = run.row * m_levels + run.level;
+		return {row * m_taken.words() + first / kWordBits, first % kWordBits};
+	}
+
+	/// The first x from \p begin to before \p end at which the shape meets no cell that is taken, or \p end.
+	int firstFree(int y, int begin, int end)
+	{
+		const std::uint64_t* row = rowAt(y, 0);
+		for (int i = begin / kWordBits; i * kWordBits < end; ++i) {
+			std::uint64_t blocked = 0;
+			const int first = begin - i * kWordBits, last = end - i * kWordBits;
+			if (first > 0)
+				blocked = (std::uint64_t{1} << first) - 1;
+			if (last < kWordBits)
+				blocked |= ~std::uint64_t{0} << last;
+			for (std::size_t k = 0; k < m_blockers.size() && ~blocked != 0; ++k) {
+				for (const Blocker& half : m_blockers[k])
+					blocked |= bitsFrom(row + half.word + i, half.bit);
+				++m_work;
+				if (~blocked == 0)
+					std::swap(m_blockers[k], m_blockers[k / 2]); // it blocks the next ones, too
+			}
+			if (~blocked != 0)
+				return i * kWordBits + lowestBit(~blocked);
+		}
+		return end;
 	}
 
 	int m_cells, m_levels;
-	Rows m_taken;            // [y, k] the x from which one of 2^k cells is taken
-	Rows m_blocked;          // one
-	std::vector<Run> m_runs; // of a shape, those that block most first
-	int m_side = 0;          // of the square that holds all
+	Rows m_taken; // [y, k] the x from which one of 2^k cells is taken
+	std::vector<std::array<Blocker, 2>>
+		m_blockers; // of the runs of a shape, those that block most first
+	int m_side = 0; // of the square that holds all
 	long long m_work = 0;
 };
 
