@@ -253,7 +253,7 @@ protected:
 			if (now[i].kind == Figure::Count) {
 				EXPECT_EQ(now[i].value, before[i].value);
 			}
-			if (name == "torusTauRe" && isMirrored && before[i].value != -1) {
+			if (name == "torus_tau_re" && isMirrored && before[i].value != -1) {
 				EXPECT_NEAR(now[i].value, -before[i].value, tolerance);
 			}
 			else if (now[i].kind == Figure::Measure) {
