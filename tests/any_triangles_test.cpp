@@ -326,8 +326,7 @@ TEST(AnyTriangles, PiecesWithoutAHyperbolicMetricLieBesideTheDisk)
 	body.triangles.push_back({first[0], first[1], static_cast<int>(body.positions.size()) - 1});
 	const SurfaceMesh mesh =
 		sideBySide(sideBySide(body, tetrahedron(), 20.0), torus(2.0, 1.0, 8, 6), 40.0);
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+	for (const OutputTriangulation output : kOutputs) {
 		HyperbolicOptions asked = options;
 		asked.output = output;
 		const Parametrization map = parametrizeHyperbolic(mesh, {}, asked);

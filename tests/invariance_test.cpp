@@ -76,16 +76,6 @@ std::vector<Call> calls()
 	const SurfaceMesh tube = onGrid(shaken(ring(1, 2.5, 16, 5), 0.05, random));
 	const SurfaceMesh box = onGrid(shaken(perforatedSlab(1, 3), 0.01, random));
 	const VertexInput three = selecting(sphere, {0, 40, 90});
-	const auto with = [](const std::function<void(Options&)>& change) {
-		Options options;
-		change(options);
-		return options;
-	};
-	const auto inDisk = [](const std::function<void(HyperbolicOptions&)>& change) {
-		HyperbolicOptions options;
-		change(options);
-		return options;
-	};
 	const auto method = [&](Method m) {
 		return with([=](Options& o) {
 			o.target = TargetCurvature::Flat;
@@ -263,7 +253,7 @@ protected:
 			if (now[i].kind == Figure::Count) {
 				EXPECT_EQ(now[i].value, before[i].value);
 			}
-			if (name == "torusTauRe" && isMirrored && before[i].value != -1) {
+			if (name == "torus_tau_re" && isMirrored && before[i].value != -1) {
 				EXPECT_NEAR(now[i].value, -before[i].value, tolerance);
 			}
 			else if (now[i].kind == Figure::Measure) {

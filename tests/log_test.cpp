@@ -128,16 +128,6 @@ struct Log : Call
 std::vector<Log> logs()
 {
 	constexpr const char* kNoCones = "No cones: expected ";
-	const auto with = [](const std::function<void(Options&)>& change) {
-		Options options;
-		change(options);
-		return options;
-	};
-	const auto inDisk = [](const std::function<void(HyperbolicOptions&)>& change) {
-		HyperbolicOptions options;
-		change(options);
-		return options;
-	};
 	const auto target = [&](TargetCurvature t) { return with([=](Options& o) { o.target = t; }); };
 	Random random(90);
 	const SurfaceMesh donut = bumpyTorus(14, 9, random);

@@ -29,7 +29,6 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Numbers that are not known before.
 constexpr std::size_t kSome = 1000000;
@@ -129,19 +128,6 @@ public:
 private:
 	std::vector<Refusal> m_rows;
 };
-
-template<class AnyOptions = Options, class Change>
-AnyOptions with(const Change& change)
-{
-	AnyOptions options;
-	change(options);
-	return options;
-}
-template<class Change>
-HyperbolicOptions inDisk(const Change& change)
-{
-	return with<HyperbolicOptions>(change);
-}
 
 Options target(TargetCurvature target, bool freeBoundary = true)
 {
@@ -617,17 +603,13 @@ TEST(Arrays, HaveALengthThatFitsTheMesh)
 TEST(Choices, AreThoseThatThereAre)
 {
 	const SurfaceMesh mesh = tetrahedron();
-	const auto change = [](auto member) {
-		return [member](auto& options, int value) {
-			auto& choice = member(options);
-			choice = static_cast<std::remove_reference_t<decltype(choice)>>(value);
-		};
-	};
 	const auto expectRefused =
-		[](const char* name, int choices, const auto& options, const auto& call) {
+		[](const char* name, int choices, auto options, const auto& member, const auto& call) {
 			for (const int value : {-1, choices, 99}) {
 				auto changed = options;
-				const auto refusal = refusalOf<InvalidOption>([&] { call(changed, value); });
+				auto& choice = std::invoke(member, changed);
+				choice = static_cast<std::remove_reference_t<decltype(choice)>>(value);
+				const auto refusal = refusalOf<InvalidOption>([&] { call(changed); });
 				EXPECT_EQ(refusal.problem, InvalidOption::NoSuchChoice);
 				EXPECT_EQ(refusal.name, std::string(name));
 				EXPECT_EQ(refusal.value, value);
@@ -636,38 +618,27 @@ TEST(Choices, AreThoseThatThereAre)
 			}
 		};
 	const auto inPlane = [&](const char* name, int choices, const auto& member) {
-		expectRefused(name, choices, Options(), [&](Options& options, int value) {
-			change(member)(options, value);
+		expectRefused(name, choices, Options(), member, [&](const Options& options) {
 			parametrizeEuclidean(mesh, {}, options);
 		});
 	};
 	const auto inDisk = [&](const char* name, int choices, const auto& member) {
 		expectRefused(
-			name, choices, HyperbolicOptions(), [&](HyperbolicOptions& options, int value) {
-				change(member)(options, value);
+			name, choices, HyperbolicOptions(), member, [&](const HyperbolicOptions& options) {
 				parametrizeHyperbolic(mesh, {}, options);
 			});
 	};
-	inPlane(
-		"target", 7, [](Options & o) -> auto& { return o.target; });
+	inPlane("target", 7, &Options::target);
 	inPlane(
 		"rounding", 2, [](Options & o) -> auto& { return o.cones.rounding; });
-	inPlane(
-		"holes", 3, [](Options & o) -> auto& { return o.holes; });
-	inPlane(
-		"charts", 4, [](Options & o) -> auto& { return o.charts; });
-	inPlane(
-		"join", 3, [](Options & o) -> auto& { return o.join; });
-	inPlane(
-		"turns", 3, [](Options & o) -> auto& { return o.turns; });
-	inDisk(
-		"target", 3, [](HyperbolicOptions & o) -> auto& { return o.target; });
-	inPlane(
-		"method", 4, [](Options & o) -> auto& { return o.method; });
-	inPlane(
-		"output", 2, [](Options & o) -> auto& { return o.output; });
-	inDisk(
-		"finish", 4, [](HyperbolicOptions & o) -> auto& { return o.finish; });
+	inPlane("holes", 3, &Options::holes);
+	inPlane("charts", 4, &Options::charts);
+	inPlane("join", 3, &Options::join);
+	inPlane("turns", 3, &Options::turns);
+	inDisk("target", 3, &HyperbolicOptions::target);
+	inPlane("method", 4, &Options::method);
+	inPlane("output", 2, &Options::output);
+	inDisk("finish", 4, &HyperbolicOptions::finish);
 }
 
 TEST(PlacesOfBoxes, AreAsManyAsBoxes)

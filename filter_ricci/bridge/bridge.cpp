@@ -157,61 +157,29 @@ Openings chosenSeams(const MeshModel& model, Seams seams)
 	Openings openings;
 	openings.parts = host::parts(model);
 	Flow::SideMarks& marks = openings.marks;
-	switch (seams) {
-	case Seams::Shortest:
-	case Seams::Sharp:
-		break;
-	case Seams::Texture:
+	if (seams == Seams::Texture) {
 		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
 			!model.hasDataMask(MeshModel::MM_VERTTEXCOORD))
 			throw Refusal(
 				"{seams} is 'Existing texture seams', or charts are to stay as they are, but the "
 				"mesh has no texture coordinates: open one that has them, or choose otherwise.");
 		openings.map = Flow::ReadMap(model.cm);
-		break;
-	case Seams::SelectedEdges:
+	}
+	else if (seams == Seams::SelectedEdges) {
 		marks = Chosen::OfSelectedEdges(model.cm);
 		if (marks.empty())
 			throw Refusal("{seams} is 'Selected edges', but no edge of a face is selected: select "
 						  "some first ('Select Crease Edges'), or choose other seams.");
-		break;
-	case Seams::SelectedFaces:
+	}
+	else if (seams == Seams::SelectedFaces) {
 		marks = Chosen::OfSelectedFaces(model.cm);
 		if (marks.empty())
 			throw Refusal(
 				"{seams} is 'Border of selected faces', but no edge lies between a selected face "
 				"and another: select a part of the surface first, or choose other seams.");
-		break;
 	}
 	return openings;
 }
-
-/// Layers that one run adds. They are removed again unless the run reaches its end.
-class NewLayers
-{
-public:
-	explicit NewLayers(MeshDocument& md) : m_md(md) {}
-	NewLayers(const NewLayers&) = delete;
-	NewLayers& operator=(const NewLayers&) = delete;
-	~NewLayers()
-	{
-		for (MeshModel* layer : m_layers)
-			host::removeMesh(m_md, layer);
-	}
-
-	MeshModel& add(const std::string& label)
-	{
-		m_layers.reserve(m_layers.size() + 1);
-		m_layers.push_back(host::addMesh(m_md, label));
-		return *m_layers.back();
-	}
-
-	void keep() { m_layers.clear(); }
-
-private:
-	MeshDocument& m_md;
-	std::vector<MeshModel*> m_layers;
-};
 
 /// The colours of all vertices as one number, for knowing them again.
 std::size_t fingerprint(const CMeshO& m)
@@ -248,99 +216,84 @@ void removeColours(MeshModel& model)
 	model.clearDataMask(MeshModel::MM_VERTCOLOR);
 }
 
-/// What the host shows a new layer by.
-void finishLayer(CMeshO& layer)
+/// Layers that one run adds to a document. They are removed again unless the run reaches its end.
+class NewLayers
 {
-	vcg::tri::UpdateBounding<CMeshO>::Box(layer);
-	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(layer);
-}
-
-/// Shows a layer that lies in the plane of the charts beside the mesh and as large, by its matrix: its
-/// coordinates stay those of the charts.
-void placeBeside(const MeshModel& model, const Flow::Result& result, MeshModel& layer)
-{
-	ricci::Box2 charts;
-	for (const ricci::Chart& chart : result.charts)
-		charts.add(chart.box);
-	const Box3m mesh = model.cm.trBB();
-	if (mesh.IsNull()) // nobody has filled it in
-		return;
-	const double size = static_cast<double>(mesh.Dim()[mesh.MaxDim()]);
-	const double scale = size / charts.extent();
-	const ricci::Point2 middle = charts.centre();
-	const double to[3] = {
-		static_cast<double>(mesh.max[0]) + 0.1 * size + scale * (middle[0] - charts.min[0]),
-		static_cast<double>(mesh.Center()[1]),
-		static_cast<double>(mesh.Center()[2])};
-	layer.cm.Tr.SetScale(
-		static_cast<Scalarm>(scale), static_cast<Scalarm>(scale), static_cast<Scalarm>(scale));
-	for (int k = 0; k < 3; ++k)
-		layer.cm.Tr[k][3] = static_cast<Scalarm>(
-			to[k] - scale * (k < 2 ? middle[static_cast<std::size_t>(k)] : 0.0));
-}
-
-void addFlatLayer(
-	NewLayers& layers,
-	MeshModel& model,
-	const std::string& name,
-	const Flow::Result& result,
-	const CarriedTexture& texture,
-	double colourTop)
-{
-	MeshModel& flat = layers.add(name + " " + host::label(model));
-	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
-	Layers::BuildFlatMesh(result, flat.cm);
-	finishLayer(flat.cm);
-	if (texture.isWanted())
-		texture.assignTo(flat, {});
-	else
-		host::copyTextures(model, flat);
-	if (colourTop > 1.0) {
-		flat.updateDataMask(MeshModel::MM_VERTCOLOR);
-		colorizeByDistortion(flat, colourTop);
+public:
+	NewLayers(MeshDocument& md, const MeshModel& model, const Flow::Result& result) :
+			m_md(md), m_model(model), m_result(result)
+	{
 	}
-	placeBeside(model, result, flat);
-}
+	NewLayers(const NewLayers&) = delete;
+	NewLayers& operator=(const NewLayers&) = delete;
+	~NewLayers()
+	{
+		for (MeshModel* layer : m_layers)
+			host::removeMesh(m_md, layer);
+	}
 
-void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::Result& result)
-{
-	MeshModel& cover = layers.add("Universal cover " + host::label(model));
-	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
-	Layers::BuildUniversalCover(result, rings, kMaxCoverFaces, cover.cm);
-	finishLayer(cover.cm);
-	placeBeside(model, result, cover);
-}
+	/// Adds one that lies where \p build, which is called with its mesh, puts it.
+	/// \param elements MeshModel::MeshElement bits
+	template<class Build>
+	MeshModel& add(const std::string& name, int elements, const Build& build)
+	{
+		m_layers.reserve(m_layers.size() + 1);
+		m_layers.push_back(host::addMesh(m_md, name + " " + host::label(m_model)));
+		MeshModel& layer = *m_layers.back();
+		layer.updateDataMask(elements);
+		build(layer.cm);
+		vcg::tri::UpdateBounding<CMeshO>::Box(layer.cm);
+		if (layer.cm.fn > 0)
+			vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(layer.cm);
+		return layer;
+	}
 
-void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
-{
-	MeshModel& axes = layers.add("Axes " + host::label(model));
-	Layers::BuildAxes(result, kGeodesicPieces, axes.cm);
-	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
-	placeBeside(model, result, axes);
-}
+	/// Adds one that lies in the plane of the charts, and shows it beside the mesh and as large, by its matrix: its
+	/// coordinates stay those of the charts.
+	template<class Build>
+	MeshModel& addBeside(const std::string& name, int elements, const Build& build)
+	{
+		MeshModel& layer = add(name, elements, build);
+		const Box3m mesh = m_model.cm.trBB();
+		if (mesh.IsNull()) // nobody has filled it in
+			return layer;
+		ricci::Box2 charts;
+		for (const ricci::Chart& chart : m_result.charts)
+			charts.add(chart.box);
+		const double size = static_cast<double>(mesh.Dim()[mesh.MaxDim()]);
+		const double scale = size / charts.extent();
+		const ricci::Point2 middle = charts.centre();
+		const double to[3] = {
+			static_cast<double>(mesh.max[0]) + 0.1 * size + scale * (middle[0] - charts.min[0]),
+			static_cast<double>(mesh.Center()[1]),
+			static_cast<double>(mesh.Center()[2])};
+		const auto factor = static_cast<Scalarm>(scale);
+		layer.cm.Tr.SetScale(factor, factor, factor);
+		for (int k = 0; k < 3; ++k)
+			layer.cm.Tr[k][3] = static_cast<Scalarm>(
+				to[k] - scale * (k < 2 ? middle[static_cast<std::size_t>(k)] : 0.0));
+		return layer;
+	}
 
-void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
-{
-	MeshModel& layer = layers.add("Canonical polygon " + host::label(model));
-	for (const auto& polygon : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, layer.cm))
-		ricci::logLine(
-			polygon.corners.empty()
-				? "Canonical polygon: not drawn, because its sides are too long to close up in "
-				  "floating point numbers."
-				: "Canonical polygon: " + std::to_string(polygon.corners.size()) + " sides, " +
-					  (polygon.isSimple ? "none crosses another" : "some cross each other") +
-					  ", and the last one ends " + ricci::numberText(polygon.gap, 2) +
-					  " beside the first corner.");
-	vcg::tri::UpdateBounding<CMeshO>::Box(layer.cm);
-	placeBeside(model, result, layer);
-}
+	void keep() { m_layers.clear(); }
 
-/// The mesh on the sphere.
-void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap& map)
+private:
+	MeshDocument& m_md;
+	const MeshModel& m_model;
+	const Flow::Result& m_result;
+	std::vector<MeshModel*> m_layers;
+};
+
+/// A line of the log.
+std::string polygonLine(const ricci::CanonicalPolygon& polygon)
 {
-	MeshModel& sphere = layers.add("Sphere of " + host::label(model));
-	Layers::BuildSphereMesh(model.cm, map, sphere.cm);
-	finishLayer(sphere.cm);
+	if (polygon.corners.empty())
+		return "Canonical polygon: not drawn, because its sides are too long to close up in "
+			   "floating point numbers.";
+	return "Canonical polygon: " + std::to_string(polygon.corners.size()) + " sides, " +
+		   (polygon.isSimple ? "none crosses another" : "some cross each other") +
+		   ", and the last one ends " + ricci::numberText(polygon.gap, 2) +
+		   " beside the first corner.";
 }
 
 /// The host draws nothing of what the filter writes until it is told to.
@@ -460,15 +413,18 @@ class Run
 {
 public:
 	/// \throw Refusal for a mesh or a file that cannot be used
-	Run(const RunSettings& settings,
+	Run(int filter,
+		const Parameters& par,
+		const RunSettings& settings,
 		MeshDocument& md,
 		bool readsQuality,
 		ricci::Progress& listener) :
 			task(listener, settings.timeLimit),
 			model(checkedMesh(md, readsQuality)), seams(chosenSeams(model, settings.seams)),
-			texture(settings.texture, model), m_settings(settings), m_md(md),
-			m_report(settings.report, host::folder(model))
+			texture(settings.texture, model), m_filter(filter), m_par(par), m_settings(settings),
+			m_md(md), m_report(settings.report, host::folder(model))
 	{
+		task.setMemoryLimit(freeMemory()); // beside the pictures
 	}
 
 	/// Share of the flow in the whole work.
@@ -477,12 +433,10 @@ public:
 	/// The order of writing: first the files, beside their places, because the disk may be full; then
 	/// the new layers, which need the most memory; then the files move to their places, and last the
 	/// mesh changes. So a failure leaves the mesh as it was, and before the files move also those.
-	/// \param addLayers called with the new layers
+	/// \param addLayers adds those beside the flat one
 	template<class AddLayers>
 	Outcome
-	end(int filter,
-		const Parameters& par,
-		ricci::OutputTriangulation output,
+	end(ricci::OutputTriangulation output,
 		const Flow::Result& result,
 		Results results,
 		const AddLayers& addLayers)
@@ -501,23 +455,25 @@ public:
 			 result.report.margin * texelsOf(texture, m_settings.texture),
 			 "Pixels between charts and to the border"});
 		Outcome outcome;
-		outcome.sentences = summary(filter, par, result.report, results);
+		outcome.sentences = summary(result.report, results);
 		outcome.details = {toReason(results, result.report.choice)};
 		RunReport report{
-			filterText(filter).name,
+			filterText(m_filter).name,
 			host::name(model),
 			sizeOf(model.cm),
-			settingsAsText(par),
+			m_par,
 			outcome.sentences,
 			results,
 			result};
 		for (const std::vector<std::string>& more : {outcome.details, result.notes})
 			report.notes.insert(report.notes.end(), more.begin(), more.end());
 		for (std::string& note : report.notes)
-			note = withNames(filter, note);
+			note = withNames(m_filter, note);
 		m_report.write(report);
-		NewLayers layers(m_md);
+		NewLayers layers(m_md, model, result);
 		ricci::advance(1.0, "Adding the layers");
+		if (m_settings.flatLayer)
+			addFlatLayer(layers, result, results);
 		addLayers(layers);
 		ricci::checkpoint();
 		texture.publish();
@@ -539,15 +495,28 @@ public:
 	std::string noSphere; ///< why there is no map to the sphere that was asked for
 
 private:
-	std::vector<std::string>
-	summary(int filter, const Parameters& par, const ricci::Report& report, const Results& results)
-		const
+	void addFlatLayer(NewLayers& layers, const Flow::Result& result, const Results& results)
 	{
-		std::vector<std::string> lines{toSentence(filter, results)};
-		for (const std::string& doubt : doubts(filter, results, par))
-			lines.push_back(doubt);
-		for (const std::string& line : ignored(filter, results, par))
-			lines.push_back(line);
+		MeshModel& layer = layers.addBeside(
+			m_filter == Hyperbolic ? "Disk" : "Flat",
+			MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY,
+			[&](CMeshO& m) { Layers::BuildFlatMesh(result, m); });
+		if (texture.isWanted())
+			texture.assignTo(layer, {});
+		else
+			host::copyTextures(model, layer);
+		if (m_settings.colorize) {
+			layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+			colorizeByDistortion(layer, colourRampTop(results));
+		}
+	}
+
+	std::vector<std::string> summary(const ricci::Report& report, const Results& results) const
+	{
+		std::vector<std::string> lines{toSentence(m_filter, results)};
+		for (const auto& more :
+			 {doubts(m_filter, results, m_par), ignored(m_filter, results, m_par)})
+			lines.insert(lines.end(), more.begin(), more.end());
 		if (!noSphere.empty())
 			lines.push_back(noSphere + " There is no sphere layer.");
 		if (report.piecesApart > 0)
@@ -569,6 +538,8 @@ private:
 		return lines;
 	}
 
+	int m_filter;
+	const Parameters& m_par;
 	const RunSettings& m_settings;
 	MeshDocument& m_md;
 	ReportFiles m_report;
@@ -577,8 +548,13 @@ private:
 Outcome applyEuclidean(const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
 	Settings settings = readSettings(par);
-	Run run(settings, md, settings.flow.target == ricci::TargetCurvature::Prescribed, listener);
-	run.task.setMemoryLimit(freeMemory()); // beside the pictures
+	Run run(
+		Euclidean,
+		par,
+		settings,
+		md,
+		settings.flow.target == ricci::TargetCurvature::Prescribed,
+		listener);
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer) {
@@ -599,25 +575,24 @@ Outcome applyEuclidean(const Parameters& par, MeshDocument& md, ricci::Progress&
 	addPlacedCones(result, results);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
-	return run.end(Euclidean, par, settings.flow.output, result, results, [&](NewLayers& layers) {
-		if (settings.flatLayer)
-			addFlatLayer(
-				layers,
-				run.model,
-				"Flat",
-				result,
-				run.texture,
-				settings.colorize ? colourRampTop(results) : 0.0);
+	return run.end(settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.sphereLayer)
-			addSphereLayer(layers, run.model, sphere);
+			layers.add("Sphere of", 0, [&](CMeshO& m) {
+				Layers::BuildSphereMesh(run.model.cm, sphere, m);
+			});
 	});
 }
 
 Outcome applyHyperbolic(const Parameters& par, MeshDocument& md, ricci::Progress& listener)
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
-	Run run(settings, md, settings.flow.target == ricci::HyperbolicTarget::Prescribed, listener);
-	run.task.setMemoryLimit(freeMemory()); // beside the pictures
+	Run run(
+		Hyperbolic,
+		par,
+		settings,
+		md,
+		settings.flow.target == ricci::HyperbolicTarget::Prescribed,
+		listener);
 	const Flow::Result result = [&] {
 		const ricci::Task flow(0.0, run.flowShare());
 		return Flow::ComputeHyperbolic(
@@ -627,21 +602,22 @@ Outcome applyHyperbolic(const Parameters& par, MeshDocument& md, ricci::Progress
 	if (result.report.components - result.report.leftOutComponents == 1 &&
 		result.charts.front().group.isCanonical())
 		addGenerators(result.charts.front().group, results);
-	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
-		if (settings.flatLayer)
-			addFlatLayer(
-				layers,
-				run.model,
-				"Disk",
-				result,
-				run.texture,
-				settings.colorize ? colourRampTop(results) : 0.0);
+	return run.end(settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.coverRings > 0)
-			addCoverLayer(layers, run.model, settings.coverRings, result);
+			layers.addBeside(
+				"Universal cover",
+				MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY,
+				[&](CMeshO& m) {
+					Layers::BuildUniversalCover(result, settings.coverRings, kMaxCoverFaces, m);
+				});
 		if (settings.axes)
-			addAxesLayer(layers, run.model, result);
+			layers.addBeside(
+				"Axes", 0, [&](CMeshO& m) { Layers::BuildAxes(result, kGeodesicPieces, m); });
 		if (settings.canonicalPolygon)
-			addPolygonLayer(layers, run.model, result);
+			layers.addBeside("Canonical polygon", 0, [&](CMeshO& m) {
+				for (const auto& p : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, m))
+					ricci::logLine(polygonLine(p));
+			});
 	});
 }
 
@@ -654,8 +630,7 @@ int preConditions()
 
 int postConditions()
 {
-	return MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR |
-		   MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+	return changedElements(true, false, ricci::OutputTriangulation::CommonRefinement);
 }
 
 Outcome applyFilter(int filter, const Parameters& par, MeshDocument& md, ricci::Progress& listener)

@@ -24,8 +24,6 @@ namespace {
 
 using Flow = vcg::tri::RicciFlow<CMeshO>;
 
-constexpr const char* kWhat = "The texture";
-
 /// Gutters take no more of the side of the square than this for one margin.
 constexpr double kMaxMargin = 0.05;
 
@@ -38,11 +36,6 @@ bool isKeptByFiles(const std::string& name)
 std::array<float, 4> asColour(const vcg::Color4b& c)
 {
 	return {c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f, c[3] / 255.0f};
-}
-
-[[noreturn]] void refuse(const std::string& sentence)
-{
-	throw Refusal(sentence);
 }
 
 double texels(const host::Picture& image)
@@ -88,22 +81,22 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 	const std::string folder = host::folder(model);
 	const std::filesystem::path path = absolutePath(wanted, folder);
 	if (endingOf(path) != "png")
-		refuse(shown + ": its name must end in .png.");
+		throw Refusal(shown + ": its name must end in .png.");
 	m_name = host::textureName(path, absolutePath("", folder));
 	if (!isKeptByFiles(m_name))
-		refuse(
+		throw Refusal(
 			shown + ": mesh files cannot hold spaces, } or ~, or letters beyond ASCII in the names "
 					"and folders of textures. Choose another name or folder.");
 	m_size = settings.size;
 	readFaces(model);
 	for (const std::string& old : model.cm.textures)
 		if (mayOverwrite(path, absolutePath(old, folder)))
-			refuse(shown + ": it has the name of a texture of the mesh. Choose another name.");
+			throw Refusal(
+				shown + ": it has the name of a texture of the mesh. Choose another name.");
 	loadPictures(model);
 	if (m_size == 0)
 		fitSize();
-	OutputFile file(path);
-	file.requireWritable(kWhat);
+	OutputFile file(path, "The texture");
 	requireMemory();
 	m_file = std::move(file);
 }
@@ -158,7 +151,7 @@ void CarriedTexture::readFaces(const MeshModel& model)
 		any = any || to.picture >= 0 || vertexColours || faceColours;
 	}
 	if (!any)
-		refuse(
+		throw Refusal(
 			m.textures.empty()
 				? "{carry_texture} needs something to draw, but the mesh has neither a texture nor "
 				  "colours."
@@ -177,7 +170,7 @@ void CarriedTexture::loadPictures(const MeshModel& model)
 		const std::string& name = model.cm.textures[ricci::positionOf(face.picture)];
 		host::Picture image = host::texture(model, name);
 		if (image.isNull())
-			refuse(
+			throw Refusal(
 				"The texture " + name +
 				" of the mesh cannot be loaded: put its file beside the mesh and open the mesh "
 				"again, or leave {carry_texture} empty.");
@@ -226,7 +219,7 @@ void CarriedTexture::requireMemory() const
 						  512.0 * static_cast<double>(m_mesh.faces.size());
 	const double free = freeMemory();
 	if (free > 0.0 && needed > free)
-		refuse(
+		throw Refusal(
 			"{texture_size} " + std::to_string(m_size) + " needs about " +
 			ricci::numberText(needed / 1e9, 2) + " GB of memory for this mesh, but " +
 			ricci::numberText(free / 1e9, 2) + " GB are free: choose a smaller one.");
@@ -345,15 +338,15 @@ void CarriedTexture::write()
 	const bool isDone = m_result.writePng([&](const char* data, std::size_t size) {
 		bytes += static_cast<double>(size);
 		ricci::advance(bytes / (bytes + expected), "Writing the texture");
-		return m_file.write(data, size);
+		m_file.write({data, size});
 	});
-	m_file.require(isDone, kWhat);
+	if (!isDone)
+		m_file.refuse(kDiskFull);
 }
 
 void CarriedTexture::publish()
 {
-	if (isWanted())
-		m_file.require(m_file.publish(), kWhat);
+	m_file.publish();
 }
 
 void CarriedTexture::assignTo(MeshModel& model, const std::vector<int>& origin) const

@@ -12,10 +12,6 @@ namespace {
 
 using ricci::numberText;
 
-constexpr const char* kSimplify =
-	": simplify it first ('Simplification: Quadric Edge Collapse Decimation'), or cut it into "
-	"pieces.";
-
 /// For what only the authors can mend. Programmers may have ended their words with a period.
 std::string reported(const ricci::Error& e)
 {
@@ -63,11 +59,6 @@ const char* remedy(const ricci::InvalidMesh& e)
 	return ".";
 }
 
-std::string inWords(const ricci::InvalidMesh& e)
-{
-	return std::string(e.what()) + remedy(e);
-}
-
 std::string inWords(const ricci::InvalidOption& e)
 {
 	using Error = ricci::InvalidOption;
@@ -80,6 +71,7 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::MemoryLimit:
 	case Error::BoxPlaces:
 	case Error::ChartMargin:
+	case Error::WithoutPositions:
 		return reported(e);
 	case Error::TimeLimit:
 		return number("time_limit", "a number of seconds, or 0 for no limit");
@@ -116,8 +108,6 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' need the method 'Intrinsic "
 			   "flips': choose it, or 'Keep the mesh' and 'Boundaries'.";
-	case Error::WithoutPositions:
-		return reported(e);
 	case Error::HyperbolicMethod:
 		return "The hyperbolic flow has no such method: choose 'Intrinsic flips' or "
 			   "'Fixed triangles'.";
@@ -229,47 +219,43 @@ std::string remedy(const ricci::NotConverged& e)
 	return ".";
 }
 
-std::string inWords(const ricci::NotConverged& e)
+const char* remedy(const ricci::SolverFailed& e)
 {
-	return e.what() + remedy(e);
-}
-
-std::string inWords(const ricci::SolverFailed& e)
-{
-	const std::string what = e.what();
 	switch (e.stage) {
 	case ricci::SolverFailed::Flow:
-		return what + ". Remesh the worst triangles.";
+		return ". Remesh the worst triangles.";
 	case ricci::SolverFailed::SeamCost:
-		return what + ". Set {seam_hiding} to 0, or remesh the worst triangles.";
+		return ". Set {seam_hiding} to 0, or remesh the worst triangles.";
 	}
-	return what + ".";
+	return ".";
 }
 
-std::string inWords(const ricci::TooLarge& e)
+const char* remedy(const ricci::TooLarge& e)
 {
 	using Error = ricci::TooLarge;
-	const std::string what = e.what();
 	switch (e.problem) {
 	case Error::Faces:
 	case Error::Memory:
 	case Error::Unknowns:
-		return what + kSimplify;
+		return ": simplify it first ('Simplification: Quadric Edge Collapse Decimation'), or cut "
+			   "it "
+			   "into pieces.";
 	case Error::DoubleMemory:
-		return what + ": simplify the mesh first "
-					  "('Simplification: Quadric Edge Collapse Decimation'), or cut it into "
-					  "pieces.";
+		return ": simplify the mesh first ('Simplification: Quadric Edge Collapse Decimation'), or "
+			   "cut it into pieces.";
 	case Error::Crossings:
 	case Error::OverlayMemory:
-		return what + ": divide long triangles and large fans first "
-					  "('Remeshing: Isotropic Explicit Remeshing').";
+		return ": divide long triangles and large fans first ('Remeshing: Isotropic Explicit "
+			   "Remeshing').";
 	}
-	return what + ".";
+	return ".";
 }
 
-std::string inWords(const ricci::InternalError& e)
+/// Of the classes that have a remedy().
+template<class Known>
+auto inWords(const Known& e) -> decltype(std::string(remedy(e)))
 {
-	return reported(e);
+	return e.what() + std::string(remedy(e));
 }
 
 std::string inWords(const ricci::Cancelled&)
@@ -316,7 +302,6 @@ std::string sentence(const ricci::Error& error)
 						   ricci::NotConverged,
 						   ricci::SolverFailed,
 						   ricci::TooLarge,
-						   ricci::InternalError,
 						   ricci::Cancelled,
 						   ricci::TimeOut>(error);
 }

@@ -3,10 +3,6 @@
 
 #include "parameters.h"
 
-#include <iomanip>
-#include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 namespace filter_ricci {
@@ -24,40 +20,16 @@ std::string quoted(const std::string& text)
 	return json + "\"";
 }
 
-struct Kind
-{
-	const char* name;
-	std::string value; ///< as JSON
-};
-
-Kind kindOf(const Parameter& p)
-{
-	std::ostringstream text;
-	text.imbue(std::locale::classic());
-	text << std::setprecision(std::numeric_limits<double>::digits10);
-	if (const int* const number = std::get_if<int>(&p.value)) {
-		if (!p.choices.empty())
-			return {"enum", quoted(p.choices.at(static_cast<std::size_t>(*number)))};
-		text << *number;
-		return {"int", text.str()};
-	}
-	if (const bool* const isOn = std::get_if<bool>(&p.value))
-		return {"bool", *isOn ? "true" : "false"};
-	if (const double* const number = std::get_if<double>(&p.value)) {
-		text << *number;
-		return {"float", text.str()};
-	}
-	return {"file", quoted(std::get<std::string>(p.value))};
-}
-
 std::string described(const Parameter& p)
 {
 	const char* const places[] = {"shown", "advanced", "options"};
-	const Kind kind = kindOf(p);
+	const char* const types[] = {"bool", "int", "float", "file"};
+	const std::string type = p.choices.empty() ? types[p.value.index()] : "enum";
 	std::string json = "{\"name\":" + quoted(p.name) + ",\"label\":" + quoted(p.label) +
 					   ",\"tooltip\":" + quoted(p.tooltip) + ",\"place\":\"" +
-					   places[static_cast<int>(p.place)] + "\",\"type\":\"" + kind.name +
-					   "\",\"default\":" + kind.value;
+					   places[static_cast<int>(p.place)] + "\",\"type\":\"" + type +
+					   "\",\"default\":" +
+					   (type == "enum" || type == "file" ? quoted(valueText(p)) : valueText(p));
 	for (std::size_t i = 0; i < p.choices.size(); ++i)
 		json += (i == 0 ? ",\"choices\":[" : ",") + quoted(p.choices[i]);
 	if (!p.choices.empty())

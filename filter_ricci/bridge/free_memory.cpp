@@ -19,12 +19,10 @@
 
 namespace filter_ricci {
 
-namespace {
-
 #if defined(_WIN32)
 
 /// Of the machine, which gives memory to a process only as long as it could be paged out.
-double freeOfSystem()
+double freeMemory(const std::string&)
 {
 	MEMORYSTATUSEX status = {};
 	status.dwLength = sizeof(status);
@@ -36,7 +34,7 @@ double freeOfSystem()
 #elif defined(__APPLE__)
 
 /// Of the machine: pages that nobody holds or that can be dropped, and what is left of the swap files there are.
-double freeOfSystem()
+double freeMemory(const std::string&)
 {
 	vm_statistics64_data_t pages = {};
 	mach_msg_type_number_t count = HOST_VM_INFO64_COUNT;
@@ -59,6 +57,8 @@ double freeOfSystem()
 }
 
 #else
+
+namespace {
 
 /// The number in a file that holds nothing else; -1 if there is none ("max").
 double numberIn(const std::string& path)
@@ -117,7 +117,9 @@ constexpr ControlGroup kControlGroups[] = {
 	 "memory.usage_in_bytes",
 	 "total_inactive_file"}};
 
-double freeBelow(const std::string& root)
+} // namespace
+
+double freeMemory(const std::string& root)
 {
 	constexpr double kKilobyte = 1024.0;
 	const std::string machine = root + "proc/meminfo";
@@ -137,16 +139,5 @@ double freeBelow(const std::string& root)
 }
 
 #endif
-
-} // namespace
-
-double freeMemory([[maybe_unused]] const std::string& root)
-{
-#if defined(_WIN32) || defined(__APPLE__)
-	return freeOfSystem();
-#else
-	return freeBelow(root);
-#endif
-}
 
 } // namespace filter_ricci

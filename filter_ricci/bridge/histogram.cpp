@@ -16,9 +16,12 @@ constexpr std::size_t kBins = 50;
 /// Scales finer than this show only rounding.
 constexpr double kFinestScale = 1e-6;
 
-/// The smallest 1, 2 or 5 times a power of 10 above \p x, and not below kFinestScale.
+/// The smallest 1, 2 or 5 times a power of 10 above \p x, and not below kFinestScale; 1 for an infinite distortion, which
+/// has no scale of its own.
 double roundNumberAbove(double x)
 {
+	if (!std::isfinite(x))
+		return 1.0;
 	for (double power = kFinestScale;; power *= 10.0)
 		for (double digit : {1.0, 2.0, 5.0})
 			if (digit * power > x)
@@ -48,10 +51,8 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 
 Histogram distortionHistogram(const std::vector<double>& values)
 {
-	const double top = ricci::percentile(values, 0.99);
-	// An infinite distortion has no scale of its own.
-	const double high = std::isfinite(top) ? roundNumberAbove(top - 1.0) : 1.0;
-	return countInBins(values, 1.0, 1.0 + high, kBins);
+	const double size = roundNumberAbove(ricci::percentile(values, 0.99) - 1.0);
+	return countInBins(values, 1.0, 1.0 + size, kBins);
 }
 
 Histogram factorHistogram(const std::vector<double>& binaryLogarithms)
@@ -60,8 +61,7 @@ Histogram factorHistogram(const std::vector<double>& binaryLogarithms)
 	sizes.reserve(binaryLogarithms.size());
 	for (double x : binaryLogarithms)
 		sizes.push_back(std::abs(x));
-	const double top = ricci::percentile(std::move(sizes), 0.99);
-	const double end = std::isfinite(top) ? roundNumberAbove(top) : 1.0;
+	const double end = roundNumberAbove(ricci::percentile(std::move(sizes), 0.99));
 	return countInBins(binaryLogarithms, -end, end, kBins);
 }
 

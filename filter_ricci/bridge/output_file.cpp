@@ -27,7 +27,7 @@ std::FILE* opened(const fs::path& path, const char* mode)
 /// Of the last call of the C library.
 std::string lastReason()
 {
-	return errno == 0 ? "is the disk full?" : std::generic_category().message(errno);
+	return errno == 0 ? kDiskFull : std::generic_category().message(errno);
 }
 
 } // namespace
@@ -60,7 +60,7 @@ OutputFile::Open::~Open()
 		fs::remove(path, ignored);
 }
 
-OutputFile::OutputFile(const fs::path& path) : m_path(path)
+OutputFile::OutputFile(const fs::path& path, const char* what) : m_path(path), m_what(what)
 {
 	std::error_code ignored;
 	if (fs::is_symlink(path, ignored)) {
@@ -68,24 +68,18 @@ OutputFile::OutputFile(const fs::path& path) : m_path(path)
 		if (!target.empty())
 			m_path = target;
 	}
-}
-
-void OutputFile::requireWritable(const char* what)
-{
 	const std::string reason = whyNotWritable();
 	if (!reason.empty())
 		throw Refusal(
-			what + (" " + name()) + " cannot be written (" + reason +
+			m_what + (" " + name()) + " cannot be written (" + reason +
 			"): choose another place for it.");
 }
 
-void OutputFile::require(bool isDone, const char* what) const
+void OutputFile::refuse(const std::string& reason) const
 {
-	if (!isDone)
-		throw Refusal(
-			what + (" " + name()) + " could not be written (" +
-			(m_reason.empty() ? "is the disk full?" : m_reason) +
-			"): choose another place for it. The mesh is unchanged.");
+	throw Refusal(
+		m_what + (" " + name()) + " could not be written (" + reason +
+		"): choose another place for it. The mesh is unchanged.");
 }
 
 std::string OutputFile::whyNotWritable()
@@ -103,18 +97,12 @@ std::string OutputFile::whyNotWritable()
 			return lastReason();
 		std::fclose(present);
 	}
-	const bool works = open();
+	const std::string reason = open();
 	m_open.reset();
-	return works ? std::string() : m_reason;
+	return reason;
 }
 
-bool OutputFile::fail()
-{
-	m_reason = lastReason();
-	return false;
-}
-
-bool OutputFile::open()
+std::string OutputFile::open()
 {
 	auto file = std::make_unique<Open>();
 	for (int i = 0; file->stream == nullptr; ++i) { // others may write to the same place
@@ -125,38 +113,37 @@ bool OutputFile::open()
 		if (file->stream != nullptr)
 			file->path = path;
 		else if (errno != EEXIST)
-			return fail();
+			return lastReason();
 	}
 	std::setvbuf(file->stream, nullptr, _IONBF, 0); // a full disk is seen at once
 	m_open = std::move(file);
-	return true;
+	return {};
 }
 
-bool OutputFile::write(const char* data, std::size_t size)
-{
-	if (!m_open && !open())
-		return false;
-	errno = 0;
-	return std::fwrite(data, 1, size, m_open->stream) == size || fail();
-}
-
-bool OutputFile::publish()
+void OutputFile::write(std::string_view bytes)
 {
 	if (!m_open)
-		return true;
+		if (const std::string reason = open(); !reason.empty())
+			refuse(reason);
+	errno = 0;
+	if (std::fwrite(bytes.data(), 1, bytes.size(), m_open->stream) != bytes.size())
+		refuse(lastReason());
+}
+
+void OutputFile::publish()
+{
+	if (!m_open)
+		return;
 	if (!m_open->close())
-		return fail();
+		refuse(lastReason());
 	std::error_code problem, ignored;
 	const fs::file_status present = fs::status(m_path, ignored);
 	if (fs::exists(present))
 		fs::permissions(m_open->path, present.permissions(), ignored);
 	fs::rename(m_open->path, m_path, problem);
-	if (problem) {
-		m_reason = problem.message();
-		return false;
-	}
+	if (problem)
+		refuse(problem.message());
 	m_open->path.clear();
-	return true;
 }
 
 } // namespace filter_ricci

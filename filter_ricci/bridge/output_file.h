@@ -17,14 +17,20 @@ std::filesystem::path absolutePath(const std::string& wanted, const std::string&
 /// What stands behind the last point of a file's name, in lower case; empty if there is none.
 std::string endingOf(const std::filesystem::path& path);
 
+/// The reason where the system gives none.
+constexpr const char* kDiskFull = "is the disk full?";
+
 /// A file that is written beside its place and moved there at the end. Unless that is done nothing is left behind.
 class OutputFile
 {
 public:
 	/// None.
 	OutputFile() = default;
+	/// Files are as they were.
 	/// \param path absolute; where it is a link, the file is written to which that leads
-	explicit OutputFile(const std::filesystem::path& path);
+	/// \param what it is, such as "The report"
+	/// \throw Refusal if it cannot be written
+	OutputFile(const std::filesystem::path& path, const char* what);
 
 	/// Whether there is a file to be written.
 	bool isWanted() const { return !m_path.empty(); }
@@ -32,20 +38,14 @@ public:
 	/// Its place, in UTF-8.
 	std::string name() const { return m_path.u8string(); }
 
-	/// Files are as they were.
-	/// \param what it is, such as "The report"
-	/// \throw Refusal if it cannot be written
-	void requireWritable(const char* what);
+	/// Appends bytes to the file beside its place. \throw Refusal
+	void write(std::string_view bytes);
 
-	/// Appends bytes to the file beside its place. \return false if that fails
-	bool write(const char* data, std::size_t size);
+	/// Moves the file to its place, if it was written. \throw Refusal
+	void publish();
 
-	/// Moves the file to its place, if it was written. \return false if that fails
-	bool publish();
-
-	/// What is said where write() or publish() has failed.
-	/// \throw Refusal unless \p isDone
-	void require(bool isDone, const char* what) const;
+	/// What is said where it could not be written. \throw Refusal
+	[[noreturn]] void refuse(const std::string& reason) const;
 
 private:
 	/// Opened, and removed again unless it has been moved.
@@ -58,12 +58,11 @@ private:
 	};
 
 	std::string whyNotWritable();
-	bool open();
-	bool fail();
+	std::string open(); // why it cannot be
 
 	std::filesystem::path m_path;
+	const char* m_what = "";
 	std::unique_ptr<Open> m_open;
-	std::string m_reason;
 };
 
 } // namespace filter_ricci

@@ -195,13 +195,11 @@ Parameters parametersOf(const char* table, const Parameters& others)
 			list.push_back(*findParameter(others, name));
 		else {
 			Parameter p{name, std::string(), {}, fields[1], "", "", place};
+			const std::map<std::string, Parameter::Value> types{
+				{"bool", false}, {"int", 0}, {"float", 0.0}};
 			const std::string& kind = fields[2];
-			if (kind == "bool")
-				p.value = false;
-			else if (kind == "int")
-				p.value = 0;
-			else if (kind == "float")
-				p.value = 0.0;
+			if (const auto type = types.find(kind); type != types.end())
+				p.value = type->second;
 			else if (kind.find("(*.") != std::string::npos)
 				p.files = kind;
 			else {
@@ -404,6 +402,18 @@ std::string setFromText(Parameter& p, const std::string& text)
 	else
 		p.value = text;
 	return "";
+}
+
+std::string valueText(const Parameter& p)
+{
+	if (const double* const number = std::get_if<double>(&p.value))
+		return ricci::numberText(*number, 7);
+	if (const bool* const isOn = std::get_if<bool>(&p.value))
+		return *isOn ? "true" : "false";
+	if (const int* const whole = std::get_if<int>(&p.value))
+		return p.choices.empty() ? std::to_string(*whole)
+								 : p.choices.at(static_cast<std::size_t>(*whole));
+	return std::get<std::string>(p.value);
 }
 
 const Parameter* findParameter(const Parameters& parameters, const std::string& name)

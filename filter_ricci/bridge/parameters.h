@@ -61,6 +61,9 @@ std::string noSuchParameter(int filter, const std::string& name);
 /// \return the sentence that refuses another text; empty if there is nothing to refuse
 std::string setFromText(Parameter& parameter, const std::string& text);
 
+/// The value as setFromText() reads it, a choice by its name; numbers with the digits of floats, which hosts may have.
+std::string valueText(const Parameter& parameter);
+
 /// A to Z in lower case.
 std::string lower(std::string text);
 

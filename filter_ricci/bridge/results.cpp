@@ -6,13 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <ios>
 #include <limits>
-#include <locale>
 #include <optional>
-#include <ostream>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -152,13 +148,13 @@ void addPlacedCones(const ricci::Parametrization& map, Results& results)
 
 void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 {
-	results.push_back(
-		{"sphere_qc_area_mean", sphere.qcAreaMean, "Sphere: angle distortion, mean by area"});
-	results.push_back(
-		{"sphere_area_distortion_mean",
-		 sphere.areaDistortionMean,
-		 "Sphere: area distortion, mean factor"});
-	results.push_back({"sphere_flipped_faces", sphere.flippedFaces, "Sphere: faces flipped"});
+	results.insert(
+		results.end(),
+		{{"sphere_qc_area_mean", sphere.qcAreaMean, "Sphere: angle distortion, mean by area"},
+		 {"sphere_area_distortion_mean",
+		  sphere.areaDistortionMean,
+		  "Sphere: area distortion, mean factor"},
+		 {"sphere_flipped_faces", sphere.flippedFaces, "Sphere: faces flipped"}});
 }
 
 void addGenerators(const ricci::FuchsianGroup& group, Results& results)
@@ -216,14 +212,16 @@ std::string toReason(const Results& results, const std::string& choice)
 
 std::vector<std::string> doubts(int filter, const Results& results, const Parameters& par)
 {
-	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
+	const auto is = [&](const char* id, auto choice) {
+		return valueOf<int>(par, id) == static_cast<int>(choice);
+	};
 	const double qc = resultOf<double>(results, "qc_area_mean");
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(
 			"This map is probably not usable: angles are distorted by " + ricci::numberText(qc, 3) +
 			" on average. " +
-			(!is("method", static_cast<int>(ricci::Method::IntrinsicFlips))
+			(!is("method", ricci::Method::IntrinsicFlips)
 				 ? "The method 'Intrinsic flips' avoids this."
 				 : "The output 'Common refinement' avoids this, and so does remeshing that removes "
 				   "sliver triangles ('Remeshing: Isotropic Explicit Remeshing')."));
@@ -249,9 +247,8 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	const double areas = resultOf<double>(results, "area_distortion_mean");
 	const double occupancy = resultOf<double>(results, "occupancy");
 	const int overlapping = resultOf<int>(results, "overlapping_faces");
-	if (overlapping > 0 &&
-		(is("target_curvature", static_cast<int>(ricci::TargetCurvature::Disk)) ||
-		 is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle))))
+	if (overlapping > 0 && (is("target_curvature", ricci::TargetCurvature::Disk) ||
+							is("target_curvature", ricci::TargetCurvature::Rectangle)))
 		lines.push_back(
 			"This map is probably not usable: " + std::to_string(overlapping) +
 			" faces overlap. 'Disk' and 'Rectangle' give one chart, which is never cut: "
@@ -267,7 +264,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 		lines.push_back(
 			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
-			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForPacking))
+			(isAutomatic && is("charts", ricci::Charts::CutForPacking)
 				 ? "Chosen seams ({seams}) divide it into charts that pack better."
 				 : "The target 'Automatic' with the charts 'Without overlap, cut for packing' "
 				   "divides "
@@ -280,7 +277,9 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 	const auto isSet = [&](const std::string& id) {
 		return findParameter(par, id)->value != findParameter(filterParameters(filter), id)->value;
 	};
-	const auto is = [&](const char* id, int value) { return valueOf<int>(par, id) == value; };
+	const auto is = [&](const char* id, auto choice) {
+		return valueOf<int>(par, id) == static_cast<int>(choice);
+	};
 	const int loops = resultOf<int>(results, "boundary_loops");
 	std::vector<std::string> lines;
 	std::set<std::string> told;
@@ -294,9 +293,8 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		tell("texture_size", !isPadded, "{carry_texture} is empty.");
 		tell("texture_size", isPadded && is("texture_size", 0), "{padding} is of 2048 pixels.");
 	}
-	const bool areGiven =
-		filter == Euclidean && is("charts", static_cast<int>(ricci::Charts::AsGiven));
-	const bool cutsSharp = !areGiven && is("seams", static_cast<int>(Seams::Sharp));
+	const bool areGiven = filter == Euclidean && is("charts", ricci::Charts::AsGiven);
+	const bool cutsSharp = !areGiven && is("seams", Seams::Sharp);
 	tell("sharp_angle", !cutsSharp, "only the seams 'Sharp edges' read it.");
 	tell(
 		"seams",
@@ -304,13 +302,13 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		"no edge is sharper than {sharp_angle}.");
 	tell(
 		"finish",
-		!is("method", static_cast<int>(ricci::Method::IntrinsicFlips)),
+		!is("method", ricci::Method::IntrinsicFlips),
 		"it needs the method 'Intrinsic flips'.");
 	tell("free_boundary", !areGiven && loops == 0, "the surface is closed.");
 	if (filter == Hyperbolic) {
 		tell(
 			"cone_angle",
-			!is("target_curvature", static_cast<int>(ricci::HyperbolicTarget::SelectedCones)),
+			!is("target_curvature", ricci::HyperbolicTarget::SelectedCones),
 			"only 'Cones at selected vertices' reads it.");
 		return lines;
 	}
@@ -321,12 +319,11 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		const std::string why = "the charts stay as they are.";
 		for (const Parameter& p : par)
 			tell(p.name, ofFlow.find(" " + p.name + " ") != std::string::npos, why);
-		tell("seams", !is("seams", static_cast<int>(Seams::Texture)), why);
+		tell("seams", !is("seams", Seams::Texture), why);
 		return lines;
 	}
-	const bool placesCones =
-		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Automatic)) ||
-		is("target_curvature", static_cast<int>(ricci::TargetCurvature::PlacedCones));
+	const bool placesCones = is("target_curvature", ricci::TargetCurvature::Automatic) ||
+							 is("target_curvature", ricci::TargetCurvature::PlacedCones);
 	const bool hasCones = resultOf<int>(results, "cones") > 0;
 	const bool isWeighed = std::any_of(results.begin(), results.end(), [](const Result& result) {
 		return result.key == "expected_spread";
@@ -342,7 +339,7 @@ std::vector<std::string> ignored(int filter, const Results& results, const Param
 		tell(id, !hasCones, "no cones are placed.");
 	tell(
 		"chart_rotation",
-		is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle)),
+		is("target_curvature", ricci::TargetCurvature::Rectangle),
 		"a rectangle stays upright.");
 	tell("holes", loops < 2, "there is no hole besides the outer boundary.");
 	return lines;
@@ -362,22 +359,17 @@ std::string colourRamp(const Results& results)
 
 std::string valueText(const Value& value, const char* separator)
 {
-	std::ostringstream text;
-	text.imbue(std::locale::classic());
-	text.precision(10);
 	if (const bool* const is = std::get_if<bool>(&value))
-		text << (*is ? "true" : "false");
-	else if (const int* const whole = std::get_if<int>(&value))
-		text << *whole;
-	else if (const double* const number = std::get_if<double>(&value))
-		text << *number;
-	else {
-		text.precision(std::numeric_limits<double>::max_digits10);
-		const auto& row = std::get<std::vector<double>>(value);
-		for (std::size_t i = 0; i < row.size(); ++i)
-			text << (i == 0 ? "" : separator) << row[i];
-	}
-	return text.str();
+		return *is ? "true" : "false";
+	if (const int* const whole = std::get_if<int>(&value))
+		return std::to_string(*whole);
+	if (const double* const number = std::get_if<double>(&value))
+		return ricci::numberText(*number, 10);
+	std::string text;
+	for (const double x : std::get<std::vector<double>>(value))
+		text += (text.empty() ? "" : separator) +
+				ricci::numberText(x, std::numeric_limits<double>::max_digits10);
+	return text;
 }
 
 std::vector<std::string> toLogLines(const Results& results)

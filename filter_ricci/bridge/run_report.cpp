@@ -5,10 +5,12 @@
 #include "error_sentences.h"
 #include "histogram.h"
 
+#include <ricci/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
-#include <ios>
 #include <locale>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -22,37 +24,18 @@ std::ostringstream plainStream(int precision)
 	std::ostringstream out;
 	out.imbue(std::locale::classic());
 	out.precision(precision);
-	out << std::boolalpha;
 	return out;
-}
-
-std::string number(double x, int precision = 6)
-{
-	std::ostringstream out = plainStream(precision);
-	out << x;
-	return out.str();
 }
 
 std::string escaped(const std::string& plain)
 {
+	static const std::map<char, std::string> entities{
+		{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
 	std::string html;
-	for (char c : plain)
-		switch (c) {
-		case '&':
-			html += "&amp;";
-			break;
-		case '<':
-			html += "&lt;";
-			break;
-		case '>':
-			html += "&gt;";
-			break;
-		case '"':
-			html += "&quot;";
-			break;
-		default:
-			html += c;
-		}
+	for (char c : plain) {
+		const auto entity = entities.find(c);
+		html += entity == entities.end() ? std::string(1, c) : entity->second;
+	}
 	return html;
 }
 
@@ -72,7 +55,7 @@ constexpr double kLeft = 64, kRight = kWidth - 16, kTop = 16, kBottom = kHeight 
 
 std::string coordinate(double x)
 {
-	return number(std::round(100.0 * x) / 100.0, 7);
+	return ricci::numberText(std::round(100.0 * x) / 100.0, 7);
 }
 
 /// A diagram with linear axes; its ends are the axes' labels.
@@ -149,7 +132,7 @@ std::string histogramPicture(const Histogram& h, const std::string& label)
 	Diagram diagram(h.low, h.high, 0.0, static_cast<double>(highest));
 	for (int i = 0; i <= 4; ++i) {
 		const double count = std::round(static_cast<double>(highest) * i / 4.0);
-		diagram.tickY(count, number(count, 9));
+		diagram.tickY(count, ricci::numberText(count, 9));
 	}
 	for (std::size_t i = 0; i < h.counts.size(); ++i)
 		if (h.counts[i] > 0)
@@ -157,7 +140,7 @@ std::string histogramPicture(const Histogram& h, const std::string& label)
 				h.lowEdge(i), h.lowEdge(i) + h.binWidth(), static_cast<double>(h.counts[i]));
 	for (int i = 0; i <= 5; ++i) {
 		const double at = h.low + (h.high - h.low) * i / 5.0;
-		diagram.tickX(at, number(at, 8));
+		diagram.tickX(at, ricci::numberText(at, 8));
 	}
 	return diagram.finish(label);
 }
@@ -196,7 +179,7 @@ std::string residualPicture(const ricci::Report& data)
 	Diagram diagram(0.0, static_cast<double>(last), low, high);
 	const double step = std::max(1.0, std::ceil((high - low) / 8.0));
 	for (double exponent = high; exponent >= low; exponent -= step)
-		diagram.tickY(exponent, "1e" + number(exponent));
+		diagram.tickY(exponent, "1e" + ricci::numberText(exponent, 6));
 	for (int i = 0; i <= last; i += (last + 10) / 10)
 		diagram.tickX(static_cast<double>(i), std::to_string(i));
 	for (const States& states : components) {
@@ -232,10 +215,10 @@ const char* const kStyle =
 	"td:first-child{min-width:13em}td:last-child{min-width:9em;overflow-wrap:anywhere}\n"
 	"code{font-size:12px;color:#666}\n";
 
-std::string tableRow(const ReportLine& line)
+std::string tableRow(const std::string& label, const std::string& key, const std::string& value)
 {
-	return "<tr><td>" + escaped(line.label) + "</td><td><code>" + escaped(line.key) +
-		   "</code></td><td>" + escaped(line.value) + "</td></tr>\n";
+	return "<tr><td>" + escaped(label) + "</td><td><code>" + escaped(key) + "</code></td><td>" +
+		   escaped(value) + "</td></tr>\n";
 }
 
 void addHistogram(std::ostream& csv, const char* start, const Histogram& h)
@@ -247,30 +230,8 @@ void addHistogram(std::ostream& csv, const char* start, const Histogram& h)
 	csv << start << h.high << "," << h.above << "\n";
 }
 
-constexpr const char* kWhat = "The report";
-
-void fill(OutputFile& file, const std::string& content)
-{
-	file.require(file.write(content.data(), content.size()), kWhat);
-}
-
-} // namespace
-
-std::vector<ReportLine> settingsAsText(const Parameters& par)
-{
-	std::vector<ReportLine> settings;
-	for (const Parameter& p : par) {
-		std::ostringstream value = plainStream(7);
-		const int* const chosen = p.choices.empty() ? nullptr : std::get_if<int>(&p.value);
-		if (chosen != nullptr)
-			value << p.choices.at(static_cast<std::size_t>(*chosen));
-		else
-			std::visit([&](const auto& x) { value << x; }, p.value);
-		settings.push_back({p.name, p.label, value.str()});
-	}
-	return settings;
-}
-
+/// The page: the charts, histograms of the distortion and of the area factors, residual of every Newton
+/// step, tables of results and settings; pictures are SVG inside it. UTF-8.
 std::string toHtml(const RunReport& report)
 {
 	const ricci::Report& data = report.map.report;
@@ -299,27 +260,32 @@ std::string toHtml(const RunReport& report)
 		 << areas.below + areas.above << ".</p>\n"
 		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value, label] : report.results)
-		page << tableRow({key, label, valueText(value, " ")});
+		page << tableRow(label, key, valueText(value, " "));
 	page << "</table>\n</section>\n<div>\n<section>\n"
 		 << "<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(data)
 		 << "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
 		 << (statesByComponent(data).size() > kMaxLines ? ", the first 20" : "")
 		 << ".</p>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
-	for (const ReportLine& line : report.settings)
-		page << tableRow(line);
+	for (const Parameter& p : report.settings)
+		page << tableRow(p.label, p.name, valueText(p));
 	page << "</table>\n</section>\n</div>\n</div>\n</body>\n</html>\n";
 	return page.str();
 }
 
+/// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,
+/// "newton" (group: component, key: Newton steps done, value: residual in radians; a key that is repeated
+/// begins another solve), "qc_histogram" (group:
+/// vertices, key: lower end of the bin, value: vertices), "area_histogram" (group: faces, key: lower
+/// end in log2 of the area factor, value: faces). UTF-8, fields quoted where they need it.
 std::string toCsv(const RunReport& report)
 {
 	std::ostringstream csv = plainStream(10);
 	csv << "table,group,key,value\n";
 	csv << "setting,,filter," << csvField(report.filter) << "\n";
 	csv << "setting,,mesh," << csvField(report.mesh) << "\n";
-	for (const ReportLine& line : report.settings)
-		csv << "setting,," << line.key << "," << csvField(line.value) << "\n";
+	for (const Parameter& p : report.settings)
+		csv << "setting,," << p.name << "," << csvField(valueText(p)) << "\n";
 	for (const Result& result : report.results)
 		csv << "result,," << result.key << "," << csvField(valueText(result.value, " ")) << "\n";
 	for (const ricci::FlowState& state : report.map.report.flowStates)
@@ -328,6 +294,8 @@ std::string toCsv(const RunReport& report)
 	addHistogram(csv, "area_histogram,faces,", factorHistogram(report.map.report.areaFactors));
 	return csv.str();
 }
+
+} // namespace
 
 ReportFiles::ReportFiles(const std::string& wanted, const std::string& folder)
 {
@@ -341,20 +309,18 @@ ReportFiles::ReportFiles(const std::string& wanted, const std::string& folder)
 			" cannot be written: its name must end in .html (page, and its data beside it) or .csv "
 			"(data alone).");
 	if (ending == "html")
-		m_page = OutputFile(path);
-	m_data =
-		OutputFile(ending == "csv" ? path : std::filesystem::path(path).replace_extension("csv"));
-	for (OutputFile* file : {&m_page, &m_data})
-		if (file->isWanted())
-			file->requireWritable(kWhat);
+		m_page = OutputFile(path, "The report");
+	m_data = OutputFile(
+		ending == "csv" ? path : std::filesystem::path(path).replace_extension("csv"),
+		"The report");
 }
 
 void ReportFiles::write(const RunReport& report)
 {
 	if (m_page.isWanted())
-		fill(m_page, toHtml(report));
+		m_page.write(toHtml(report));
 	if (m_data.isWanted())
-		fill(m_data, toCsv(report));
+		m_data.write(toCsv(report));
 }
 
 std::vector<std::string> ReportFiles::publish()
@@ -362,7 +328,7 @@ std::vector<std::string> ReportFiles::publish()
 	std::vector<std::string> written;
 	for (OutputFile* file : {&m_page, &m_data})
 		if (file->isWanted()) {
-			file->require(file->publish(), kWhat);
+			file->publish();
 			written.push_back(file->name());
 		}
 	return written;

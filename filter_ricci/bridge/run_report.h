@@ -13,35 +13,15 @@
 
 namespace filter_ricci {
 
-/// A parameter or a result.
-struct ReportLine
-{
-	std::string key, label, value;
-};
-
 struct RunReport
 {
 	std::string filter, mesh; ///< their names
 	std::string size;         ///< of the mesh, as part of a sentence
-	std::vector<ReportLine> settings;
+	const Parameters& settings;
 	std::vector<std::string> notes; ///< what the log said of the mesh
-	Results results;
+	const Results& results;
 	const ricci::Parametrization& map;
 };
-
-/// The parameters as text, choices by their names.
-std::vector<ReportLine> settingsAsText(const Parameters& par);
-
-/// The page: the charts, histograms of the distortion and of the area factors, residual of every Newton
-/// step, tables of results and settings; pictures are SVG inside it. UTF-8.
-std::string toHtml(const RunReport& report);
-
-/// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,
-/// "newton" (group: component, key: Newton steps done, value: residual in radians; a key that is repeated
-/// begins another solve), "qc_histogram" (group:
-/// vertices, key: lower end of the bin, value: vertices), "area_histogram" (group: faces, key: lower
-/// end in log2 of the area factor, value: faces). UTF-8, fields quoted where they need it.
-std::string toCsv(const RunReport& report);
 
 /// The files of a report, found writable before the run that it is about.
 class ReportFiles

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_ricci.h"
-
 #include "meshlab.h"
 
 #include <QApplication>
 #include <QDockWidget>
 #include <QGridLayout>
+#include <QObject>
 #include <QStringList>
 #include <QTimer>
 
@@ -81,74 +80,71 @@ void showInTwoColumns(const QString& filter)
 
 } // namespace
 
-FilterRicciPlugin::FilterRicciPlugin()
+/// The filter as a plugin of MeshLab 2020.09. No exception leaves it: the host would abort.
+class FilterRicciPlugin : public QObject, public MeshFilterInterface
 {
-	typeList << filter_ricci::Euclidean << filter_ricci::Hyperbolic;
-	for (const FilterIDType filter : types())
-		actionList << new QAction(filterName(filter), this);
-}
+	Q_OBJECT
+	MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
+	Q_INTERFACES(MeshFilterInterface)
 
-QString FilterRicciPlugin::pluginName() const
-{
-	return "FilterRicci";
-}
-
-QString FilterRicciPlugin::filterName(FilterIDType filter) const
-{
-	return QString::fromStdString(filter_ricci::filterText(filter).name);
-}
-
-QString FilterRicciPlugin::filterInfo(FilterIDType filter) const
-{
-	return QString::fromStdString(filter_ricci::filterText(filter).info);
-}
-
-FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(QAction*)
-{
-	return FilterClass(Texture | Quality);
-}
-
-FilterRicciPlugin::FILTER_ARITY FilterRicciPlugin::filterArity(QAction*) const
-{
-	return SINGLE_MESH;
-}
-
-int FilterRicciPlugin::getPreConditions(QAction*) const
-{
-	return filter_ricci::preConditions();
-}
-
-int FilterRicciPlugin::postCondition(QAction*) const
-{
-	return filter_ricci::postConditions();
-}
-
-// The variant with a document, because the host's default asks a document without a mesh for one.
-void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
-{
-	RichParameterList list = filter_ricci::richParameters(ID(action));
-	for (RichParameter& parameter : list)
-		Help::breakLines(parameter);
-	par.join(list);
-	if (filter_ricci::host::hasWindow())
-		QTimer::singleShot(0, this, [name = filterName(ID(action))] { showInTwoColumns(name); });
-}
-
-bool FilterRicciPlugin::applyFilter(
-	QAction* action, MeshDocument& md, const RichParameterList& par, vcg::CallBackPos* cb)
-{
-	errorMessage.clear();
-	try {
-		const int filter = ID(action);
-		filter_ricci::HostProgress progress(cb, [this](const std::string& line) { Log(line); });
-		filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
-		return true;
+public:
+	FilterRicciPlugin()
+	{
+		typeList << filter_ricci::Euclidean << filter_ricci::Hyperbolic;
+		for (const FilterIDType filter : types())
+			actionList << new QAction(FilterRicciPlugin::filterName(filter), this);
 	}
-	catch (...) {
-		// meshlabserver prints the log only, the window shows errorMessage only.
-		const std::string sentence = filter_ricci::failure(ID(action));
-		Log(sentence);
-		errorMessage = QString::fromStdString(sentence);
-		return false;
+
+	QString pluginName() const override { return "FilterRicci"; }
+
+	QString filterName(FilterIDType filter) const override
+	{
+		return QString::fromStdString(filter_ricci::filterText(filter).name);
 	}
-}
+
+	QString filterInfo(FilterIDType filter) const override
+	{
+		return QString::fromStdString(filter_ricci::filterText(filter).info);
+	}
+
+	FilterClass getClass(QAction*) override { return FilterClass(Texture | Quality); }
+	FILTER_ARITY filterArity(QAction*) const override { return SINGLE_MESH; }
+	int getPreConditions(QAction*) const override { return filter_ricci::preConditions(); }
+	int postCondition(QAction*) const override { return filter_ricci::postConditions(); }
+
+	// The variant with a document, because the host's default asks a document without a mesh for one.
+	void initParameterSet(QAction* action, MeshDocument&, RichParameterList& par) override
+	{
+		RichParameterList list = filter_ricci::richParameters(ID(action));
+		for (RichParameter& parameter : list)
+			Help::breakLines(parameter);
+		par.join(list);
+		if (filter_ricci::host::hasWindow())
+			QTimer::singleShot(
+				0, this, [name = filterName(ID(action))] { showInTwoColumns(name); });
+	}
+
+	bool applyFilter(
+		QAction* action,
+		MeshDocument& md,
+		const RichParameterList& par,
+		vcg::CallBackPos* cb) override
+	{
+		errorMessage.clear();
+		try {
+			const int filter = ID(action);
+			filter_ricci::HostProgress progress(cb, [this](const std::string& line) { Log(line); });
+			filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
+			return true;
+		}
+		catch (...) {
+			// meshlabserver prints the log only, the window shows errorMessage only.
+			const std::string sentence = filter_ricci::failure(ID(action));
+			Log(sentence);
+			errorMessage = QString::fromStdString(sentence);
+			return false;
+		}
+	}
+};
+
+#include "filter_ricci.moc"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_ricci.h"
-
 #include "meshlab.h"
+
+#include <QObject>
 
 namespace {
 
@@ -28,84 +28,74 @@ std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
 
 } // namespace
 
-FilterRicciPlugin::FilterRicciPlugin()
+/// The filter as a plugin of MeshLab 2022.02 and later, and of PyMeshLab. Only MLException leaves
+/// it: the host would abort at any other.
+class FilterRicciPlugin : public QObject, public FilterPlugin
 {
-	typeList = {filter_ricci::Euclidean, filter_ricci::Hyperbolic};
-	for (const ActionIDType filter : types())
-		actionList.push_back(new QAction(filterName(filter), this));
-}
+	Q_OBJECT
+	MESHLAB_PLUGIN_IID_EXPORTER(FILTER_PLUGIN_IID)
+	Q_INTERFACES(FilterPlugin)
 
-QString FilterRicciPlugin::pluginName() const
-{
-	return "FilterRicci";
-}
-
-QString FilterRicciPlugin::vendor() const
-{
-	return "Generalized Ricci Flow";
-}
-
-QString FilterRicciPlugin::filterName(ActionIDType filter) const
-{
-	return QString::fromStdString(filter_ricci::filterText(filter).name);
-}
-
-QString FilterRicciPlugin::pythonFilterName(ActionIDType filter) const
-{
-	return QString::fromStdString(filter_ricci::filterText(filter).pythonName);
-}
-
-QString FilterRicciPlugin::filterInfo(ActionIDType filter) const
-{
-	return QString::fromStdString(filter_ricci::filterText(filter).info);
-}
-
-FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(const QAction*) const
-{
-	return FilterClass(Texture | Quality);
-}
-
-FilterRicciPlugin::FilterArity FilterRicciPlugin::filterArity(const QAction*) const
-{
-	return SINGLE_MESH;
-}
-
-int FilterRicciPlugin::getPreConditions(const QAction*) const
-{
-	return filter_ricci::preConditions();
-}
-
-int FilterRicciPlugin::postCondition(const QAction*) const
-{
-	return filter_ricci::postConditions();
-}
-
-// The variant with a document, because the host's default asks a document without a mesh for one.
-RichParameterList FilterRicciPlugin::initParameterList(const QAction* action, const MeshDocument&)
-{
-	return filter_ricci::richParameters(ID(action));
-}
-
-std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
-	const QAction* action,
-	const RichParameterList& par,
-	MeshDocument& md,
-	unsigned int& postConditionMask,
-	vcg::CallBackPos* cb)
-{
-	try {
-		const int filter = ID(action);
-		filter_ricci::HostProgress progress(
-			cb, [this](const std::string& line) { this->log(line); });
-		const auto outcome =
-			filter_ricci::applyFilter(filter, filter_ricci::fromRich(filter, par), md, progress);
-		progress.warn(outcome.sentences);
-		postConditionMask = static_cast<unsigned int>(outcome.changedElements);
-		return toMap(outcome.results);
+public:
+	FilterRicciPlugin()
+	{
+		typeList = {filter_ricci::Euclidean, filter_ricci::Hyperbolic};
+		for (const ActionIDType filter : types())
+			actionList.push_back(new QAction(FilterRicciPlugin::filterName(filter), this));
 	}
-	catch (...) {
-		// PyMeshLab leaves a failed filter with the log of its document, which may not outlive it.
-		setLog(nullptr);
-		throw MLException(QString::fromStdString(filter_ricci::failure(ID(action))));
+
+	QString pluginName() const override { return "FilterRicci"; }
+	QString vendor() const override { return "Generalized Ricci Flow"; }
+
+	QString filterName(ActionIDType filter) const override
+	{
+		return QString::fromStdString(filter_ricci::filterText(filter).name);
 	}
-}
+
+	QString pythonFilterName(ActionIDType filter) const override
+	{
+		return QString::fromStdString(filter_ricci::filterText(filter).pythonName);
+	}
+
+	QString filterInfo(ActionIDType filter) const override
+	{
+		return QString::fromStdString(filter_ricci::filterText(filter).info);
+	}
+
+	FilterClass getClass(const QAction*) const override { return FilterClass(Texture | Quality); }
+	FilterArity filterArity(const QAction*) const override { return SINGLE_MESH; }
+	int getPreConditions(const QAction*) const override { return filter_ricci::preConditions(); }
+	int postCondition(const QAction*) const override { return filter_ricci::postConditions(); }
+
+	// The variant with a document, because the host's default asks a document without a mesh for one.
+	RichParameterList initParameterList(const QAction* action, const MeshDocument&) override
+	{
+		return filter_ricci::richParameters(ID(action));
+	}
+
+	std::map<std::string, QVariant> applyFilter(
+		const QAction* action,
+		const RichParameterList& par,
+		MeshDocument& md,
+		unsigned int& postConditionMask,
+		vcg::CallBackPos* cb) override
+	{
+		try {
+			const int filter = ID(action);
+			filter_ricci::HostProgress progress(
+				cb, [this](const std::string& line) { this->log(line); });
+			const auto outcome = filter_ricci::applyFilter(
+				filter, filter_ricci::fromRich(filter, par), md, progress);
+			progress.warn(outcome.sentences);
+			postConditionMask = static_cast<unsigned int>(outcome.changedElements);
+			return toMap(outcome.results);
+		}
+		catch (...) {
+			// PyMeshLab leaves a failed filter with the log of its document, which may not outlive it.
+			setLog(nullptr);
+			throw MLException(QString::fromStdString(filter_ricci::failure(ID(action))));
+		}
+	}
+};
+
+#include "filter_ricci.moc"

@@ -6,7 +6,6 @@
 #include <QStringList>
 
 #include <algorithm>
-#include <utility>
 
 namespace filter_ricci {
 
@@ -87,11 +86,6 @@ Parameters fromRich(int filter, const RichParameterList& par)
 	if (par.hasParameter("options"))
 		setOptions(filter, parameters, par.getString("options").toStdString());
 	return parameters;
-}
-
-HostProgress::HostProgress(vcg::CallBackPos* callback, Log log) :
-		m_callback(callback), m_log(std::move(log))
-{
 }
 
 void HostProgress::log(const std::string& line)

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filter_ricci {
@@ -31,7 +32,9 @@ public:
 	using Log = std::function<void(const std::string&)>;
 
 	/// \param callback may be null
-	HostProgress(vcg::CallBackPos* callback, Log log);
+	HostProgress(vcg::CallBackPos* callback, Log log) : m_callback(callback), m_log(std::move(log))
+	{
+	}
 
 	void log(const std::string& line) override;
 	bool update(double fraction, const std::string& what) override;

@@ -39,7 +39,8 @@ protected:
 	qint64 writeData(const char* data, qint64 size) override
 	{
 		try {
-			return m_sink(data, static_cast<std::size_t>(size)) ? size : -1;
+			m_sink(data, static_cast<std::size_t>(size));
+			return size;
 		}
 		catch (...) {
 			m_thrown = std::current_exception();

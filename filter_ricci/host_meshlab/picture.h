@@ -35,9 +35,9 @@ public:
 	const void* samples() const { return m_image.constBits(); }
 	void* samples() { return m_image.bits(); }
 
-	/// Takes bytes of a file; false: it can take no more. It may throw.
-	using Sink = std::function<bool(const char* data, std::size_t size)>;
-	/// \return whether all of the file was taken \throw what \p sink does
+	/// Takes bytes of a file. It may throw.
+	using Sink = std::function<void(const char* data, std::size_t size)>;
+	/// \return whether the file could be made \throw what \p sink does
 	bool writePng(const Sink& sink) const;
 
 	const QImage& image() const { return m_image; }

@@ -35,7 +35,7 @@ public:
 	void* samples() { return m_samples.data(); }
 
 	/// Takes bytes of a file.
-	using Sink = std::function<bool(const char* data, std::size_t size)>;
+	using Sink = std::function<void(const char* data, std::size_t size)>;
 	/// Nothing: who runs the filter gets the samples, and writes what it wants.
 	bool writePng(const Sink&) const { return true; }
 

@@ -17,11 +17,10 @@ using filter_ricci::LibraryRun;
 using filter_ricci::Misuse;
 
 /// What the caller holds.
-struct ricci_run
+struct ricci_run : LibraryRun
 {
-	explicit ricci_run(int filter) : run(filter) {}
+	using LibraryRun::LibraryRun;
 
-	LibraryRun run;
 	std::string sentence;
 	const char* message = ""; ///< into the sentence, unless there was no memory for one
 };
@@ -32,7 +31,7 @@ namespace {
 int32_t failed(ricci_run& run, int32_t code) noexcept
 {
 	try {
-		run.sentence = filter_ricci::failure(run.run.filter());
+		run.sentence = filter_ricci::failure(run.filter());
 		run.message = run.sentence.c_str();
 	}
 	catch (...) {
@@ -49,7 +48,7 @@ int32_t guarded(ricci_run* run, Action action) noexcept
 		return RICCI_MISUSE;
 	run->message = "";
 	try {
-		action(run->run);
+		action(*run);
 		return RICCI_OK;
 	}
 	catch (const Misuse&) {
@@ -166,21 +165,21 @@ const char* ricci_message(const ricci_run* run)
 
 int64_t ricci_output_count(const ricci_run* run)
 {
-	return run == nullptr ? 0 : static_cast<int64_t>(run->run.outputs().size());
+	return run == nullptr ? 0 : static_cast<int64_t>(run->outputs().size());
 }
 
 const char* ricci_output_name(const ricci_run* run, int64_t number)
 {
 	if (number < 0 || number >= ricci_output_count(run))
 		return nullptr;
-	return run->run.outputs()[static_cast<std::size_t>(number)].name.c_str();
+	return run->outputs()[static_cast<std::size_t>(number)].name.c_str();
 }
 
 int32_t ricci_output(const ricci_run* run, const char* name, ricci_array* output)
 {
 	if (run == nullptr || name == nullptr || output == nullptr)
 		return RICCI_MISUSE;
-	for (const LibraryRun::Array& array : run->run.outputs())
+	for (const LibraryRun::Array& array : run->outputs())
 		if (array.name == name) {
 			*output = array.shape;
 			output->data = array.bytes.data();

@@ -88,41 +88,37 @@ LibraryRun::Array copied(const std::string& name, const ricci_array& given)
 struct Kind
 {
 	const char* name;
-	char first; ///< entries of the first dimension: V, F, or the number 4
-	int dimensions;
-	int64_t others[2];
-	bool isWhole; ///< indices, or truth values
+	const char* shape; ///< V and F: the numbers of vertices and faces
+	bool isWhole;      ///< indices, or truth values
 };
 
 constexpr Kind kKinds[] = {
-	{"vertices", 'V', 2, {3, 0}, false},
-	{"faces", 'F', 2, {3, 0}, true},
-	{"faux", 'F', 2, {3, 0}, true},
-	{"selected_vertices", 'V', 1, {0, 0}, true},
-	{"selected_edges", 'F', 2, {3, 0}, true},
-	{"selected_faces", 'F', 1, {0, 0}, true},
-	{"quality", 'V', 1, {0, 0}, false},
-	{"part", 'V', 1, {0, 0}, true},
-	{"uv", 'F', 3, {3, 2}, false},
-	{"picture_of_face", 'F', 1, {0, 0}, true},
-	{"vertex_colors", 'V', 2, {4, 0}, false},
-	{"face_colors", 'F', 2, {4, 0}, false},
-	{"matrix", '4', 2, {4, 0}, false}};
+	{"vertices", "V x 3", false},
+	{"faces", "F x 3", true},
+	{"faux", "F x 3", true},
+	{"selected_vertices", "V", true},
+	{"selected_edges", "F x 3", true},
+	{"selected_faces", "F", true},
+	{"quality", "V", false},
+	{"part", "V", true},
+	{"uv", "F x 3 x 2", false},
+	{"picture_of_face", "F", true},
+	{"vertex_colors", "V x 4", false},
+	{"face_colors", "F x 4", false},
+	{"matrix", "4 x 4", false}};
 
-std::string wantedShape(const Kind& kind)
+/// The array whose length is that of one of the kind; null if its length is a number.
+const char* lengthOf(const Kind& kind)
 {
-	std::string text(1, kind.first);
-	for (int k = 1; k < kind.dimensions; ++k)
-		text += " x " + std::to_string(kind.others[k - 1]);
-	return text;
+	return *kind.shape == 'V' ? "vertices" : *kind.shape == 'F' ? "faces" : nullptr;
 }
 
 bool hasShape(const Kind& kind, const ricci_array& array)
 {
-	bool is = array.dimensions == kind.dimensions && (kind.first != '4' || array.shape[0] == 4);
-	for (int k = 1; is && k < kind.dimensions; ++k)
-		is = array.shape[k] == kind.others[k - 1];
-	return is;
+	std::string wanted = kind.shape;
+	if (lengthOf(kind) != nullptr)
+		wanted.replace(0, 1, std::to_string(array.shape[0]));
+	return shapeText(array) == wanted;
 }
 
 unsigned char colour(double value)
@@ -135,27 +131,30 @@ class Listener : public ricci::Progress
 public:
 	Listener(ricci_listener listener, void* context) : m_listener(listener), m_context(context) {}
 
-	void log(const std::string& line) override
-	{
-		if (m_listener != nullptr)
-			m_listener(m_context, -1.0, line.c_str());
-	}
+	void log(const std::string& line) override { m_listener(m_context, -1.0, line.c_str()); }
 
-	void warn(const std::string& line)
-	{
-		if (m_listener != nullptr)
-			m_listener(m_context, -2.0, line.c_str());
-	}
+	void warn(const std::string& line) { m_listener(m_context, -2.0, line.c_str()); }
 
 	bool update(double fraction, const std::string& what) override
 	{
-		return m_listener == nullptr || m_listener(m_context, fraction, what.c_str()) != 0;
+		return m_listener(m_context, fraction, what.c_str()) != 0;
 	}
 
 private:
 	ricci_listener m_listener;
 	void* m_context;
 };
+
+template<class Number>
+constexpr ricci_type kTypeOf = RICCI_UINT8;
+template<>
+constexpr ricci_type kTypeOf<bool> = RICCI_BOOL;
+template<>
+constexpr ricci_type kTypeOf<unsigned short> = RICCI_UINT16;
+template<>
+constexpr ricci_type kTypeOf<int32_t> = RICCI_INT32;
+template<>
+constexpr ricci_type kTypeOf<double> = RICCI_FLOAT64;
 
 /// Appends arrays to the outputs of a run.
 class Outputs
@@ -165,14 +164,10 @@ public:
 
 	/// \param value called for each entry in turn, with its place
 	template<class Number, class Value>
-	void
-	add(const std::string& name,
-		ricci_type type,
-		std::initializer_list<std::size_t> shape,
-		const Value& value)
+	void add(const std::string& name, std::initializer_list<std::size_t> shape, const Value& value)
 	{
 		LibraryRun::Array array{name, {}, {}};
-		array.shape.type = type;
+		array.shape.type = kTypeOf<Number>;
 		array.shape.dimensions = static_cast<int32_t>(shape.size());
 		std::transform(shape.begin(), shape.end(), array.shape.shape, [](std::size_t n) {
 			return static_cast<int64_t>(n);
@@ -186,37 +181,23 @@ public:
 		m_outputs.push_back(std::move(array));
 	}
 
-	template<class Value>
-	void
-	numbers(const std::string& name, std::initializer_list<std::size_t> shape, const Value& value)
-	{
-		add<double>(name, RICCI_FLOAT64, shape, value);
-	}
-
-	template<class Value>
-	void
-	indices(const std::string& name, std::initializer_list<std::size_t> shape, const Value& value)
-	{
-		add<int32_t>(name, RICCI_INT32, shape, value);
-	}
-
 	/// What meshes and layers have.
 	void mesh(const std::string& before, const MeshModel& model)
 	{
 		const CMeshO& m = model.cm;
-		numbers(before + "vertices", {m.vert.size(), 3}, [&](std::size_t i) {
+		add<double>(before + "vertices", {m.vert.size(), 3}, [&](std::size_t i) {
 			return m.vert[i / 3].cP()[static_cast<int>(i % 3)];
 		});
-		indices(before + "faces", {m.face.size(), 3}, [&](std::size_t i) {
+		add<int32_t>(before + "faces", {m.face.size(), 3}, [&](std::size_t i) {
 			return vcg::tri::Index(m, m.face[i / 3].cV(static_cast<int>(i % 3)));
 		});
 		if (vcg::tri::HasPerWedgeTexCoord(m))
-			numbers(before + "uv", {m.face.size(), 3, 2}, [&](std::size_t i) {
+			add<double>(before + "uv", {m.face.size(), 3, 2}, [&](std::size_t i) {
 				const auto& at = m.face[i / 6].cWT(static_cast<int>(i / 2 % 3));
 				return i % 2 == 0 ? at.u() : at.v();
 			});
 		if (model.hasDataMask(MeshModel::MM_VERTQUALITY))
-			numbers(
+			add<double>(
 				before + "quality", {m.vert.size()}, [&](std::size_t i) { return m.vert[i].cQ(); });
 	}
 
@@ -224,7 +205,7 @@ public:
 	template<class Elements>
 	void colours(const std::string& name, const Elements& elements)
 	{
-		add<unsigned char>(name, RICCI_UINT8, {elements.size(), 4}, [&](std::size_t i) {
+		add<unsigned char>(name, {elements.size(), 4}, [&](std::size_t i) {
 			return elements[i / 4].cC()[static_cast<int>(i % 4)];
 		});
 	}
@@ -236,10 +217,10 @@ public:
 		mesh(kind, layer);
 		if (layer.hasDataMask(MeshModel::MM_VERTCOLOR))
 			colours(kind + "colors", layer.cm.vert);
-		indices(kind + "edges", {layer.cm.edge.size(), 2}, [&](std::size_t i) {
+		add<int32_t>(kind + "edges", {layer.cm.edge.size(), 2}, [&](std::size_t i) {
 			return vcg::tri::Index(layer.cm, layer.cm.edge[i / 2].cV(static_cast<int>(i % 2)));
 		});
-		numbers(kind + "matrix", {4, 4}, [&](std::size_t i) {
+		add<double>(kind + "matrix", {4, 4}, [&](std::size_t i) {
 			return layer.cm.Tr[static_cast<int>(i / 4)][static_cast<int>(i % 4)];
 		});
 	}
@@ -247,38 +228,36 @@ public:
 	void attribute(const char* name, const char* own, CMeshO& m)
 	{
 		auto values = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<double>(m, own);
-		numbers(name, {m.vert.size()}, [&](std::size_t i) { return values[i]; });
+		add<double>(name, {m.vert.size()}, [&](std::size_t i) { return values[i]; });
 	}
 
 	void picture(const host::Picture& picture)
 	{
 		const auto size = static_cast<std::size_t>(picture.width());
 		const std::size_t channels = picture.hasAlpha() ? 4 : 3;
-		const auto write = [&](auto sample, ricci_type type) {
+		const auto write = [&](auto sample) {
 			using Sample = decltype(sample);
 			const auto* const samples = static_cast<const Sample*>(picture.samples());
-			add<Sample>("picture", type, {size, size, channels}, [&](std::size_t i) {
+			add<Sample>("picture", {size, size, channels}, [&](std::size_t i) {
 				return samples[4 * (i / channels) + i % channels];
 			});
 		};
 		if (picture.hasWords())
-			write(static_cast<unsigned short>(0), RICCI_UINT16);
+			write(static_cast<unsigned short>(0));
 		else
-			write(static_cast<unsigned char>(0), RICCI_UINT8);
+			write(static_cast<unsigned char>(0));
 	}
 
 	void result(const std::string& name, const Value& value)
 	{
-		if (const bool* const is = std::get_if<bool>(&value))
-			add<unsigned char>(name, RICCI_BOOL, {}, [&](std::size_t) { return *is ? 1 : 0; });
+		if (const auto* const row = std::get_if<std::vector<double>>(&value))
+			add<double>(name, {row->size()}, [&](std::size_t i) { return (*row)[i]; });
+		else if (const bool* const is = std::get_if<bool>(&value))
+			add<bool>(name, {}, [&](std::size_t) { return *is; });
 		else if (const int* const whole = std::get_if<int>(&value))
-			indices(name, {}, [&](std::size_t) { return *whole; });
-		else if (const double* const number = std::get_if<double>(&value))
-			numbers(name, {}, [&](std::size_t) { return *number; });
-		else {
-			const auto& row = std::get<std::vector<double>>(value);
-			numbers(name, {row.size()}, [&](std::size_t i) { return row[i]; });
-		}
+			add<int32_t>(name, {}, [&](std::size_t) { return *whole; });
+		else
+			add<double>(name, {}, [&](std::size_t) { return std::get<double>(value); });
 	}
 
 private:
@@ -332,7 +311,7 @@ void LibraryRun::setArray(const std::string& name, const ricci_array* given)
 	Array array = copied(name, *given);
 	if (!hasShape(*kind, array.shape))
 		throw Misuse(
-			"The array " + name + " must have the shape " + wantedShape(*kind) + ", not " +
+			"The array " + name + " must have the shape " + kind->shape + ", not " +
 			shapeText(array.shape) + ".");
 	if (kind->isWhole && (given->type == RICCI_FLOAT32 || given->type == RICCI_FLOAT64))
 		throw Misuse("The array " + name + " must have whole numbers or truth values.");
@@ -372,7 +351,7 @@ void LibraryRun::addPicture(const std::string& name, const ricci_array* given)
 
 void LibraryRun::setListener(ricci_listener listener, void* context)
 {
-	m_listener = listener;
+	m_listener = listener == nullptr ? nobody : listener;
 	m_context = context;
 }
 
@@ -390,8 +369,8 @@ void LibraryRun::checkLengths() const
 				std::string("There is no array ") + needed + ": a mesh has vertices and faces.");
 	for (const Kind& kind : kKinds) {
 		const Array* const array = input(kind.name);
-		const char* const like = kind.first == 'V' ? "vertices" : "faces";
-		if (array != nullptr && kind.first != '4' &&
+		const char* const like = lengthOf(kind);
+		if (array != nullptr && like != nullptr &&
 			array->shape.shape[0] != input(like)->shape.shape[0])
 			throw Misuse(
 				"The array " + array->name + " has " + std::to_string(array->shape.shape[0]) +
@@ -422,6 +401,13 @@ void LibraryRun::fill(MeshDocument& document) const
 		throw ricci::InvalidMesh(ricci::InvalidMesh::DamagedFaces, damaged);
 	vcg::tri::Allocator<CMeshO>::AddVertices(m, vertices);
 	vcg::tri::Allocator<CMeshO>::AddFaces(m, faces);
+	for (const auto& [name, element] :
+		 {std::pair("quality", MeshModel::MM_VERTQUALITY),
+		  std::pair("uv", MeshModel::MM_WEDGTEXCOORD),
+		  std::pair("vertex_colors", MeshModel::MM_VERTCOLOR),
+		  std::pair("face_colors", MeshModel::MM_FACECOLOR)})
+		if (input(name) != nullptr)
+			model.updateDataMask(element);
 
 	/// use(element, its array, place of its first entry) for each, where there is the array.
 	const auto each = [&](const char* name, auto& elements, std::size_t entries, auto use) {
@@ -452,14 +438,10 @@ void LibraryRun::fill(MeshDocument& document) const
 	};
 	each("selected_vertices", m.vert, 1, select);
 	each("selected_faces", m.face, 1, select);
-	if (input("quality") != nullptr)
-		model.updateDataMask(MeshModel::MM_VERTQUALITY);
 	each("part", m.vert, 1, [&](CVertexO&, const Array& a, std::size_t i) {
 		model.parts.push_back(static_cast<int>(a[i]));
 	});
 	each("quality", m.vert, 1, [](CVertexO& v, const Array& a, std::size_t i) { v.Q() = a[i]; });
-	if (input("uv") != nullptr)
-		model.updateDataMask(MeshModel::MM_WEDGTEXCOORD);
 	each("uv", m.face, 6, [](CFaceO& f, const Array& a, std::size_t i) {
 		for (int k = 0; k < 3; ++k, i += 2) {
 			f.WT(k).U() = static_cast<float>(a[i]);
@@ -477,11 +459,7 @@ void LibraryRun::fill(MeshDocument& document) const
 		element.C() =
 			vcg::Color4b(colour(a[i]), colour(a[i + 1]), colour(a[i + 2]), colour(a[i + 3]));
 	};
-	if (input("vertex_colors") != nullptr)
-		model.updateDataMask(MeshModel::MM_VERTCOLOR);
 	each("vertex_colors", m.vert, 4, paint);
-	if (input("face_colors") != nullptr)
-		model.updateDataMask(MeshModel::MM_FACECOLOR);
 	each("face_colors", m.face, 4, paint);
 	if (const Array* const matrix = input("matrix"))
 		for (int i = 0; i < 16; ++i)
@@ -506,11 +484,12 @@ void LibraryRun::execute()
 	CMeshO& m = model.cm;
 	const std::size_t faces = m.face.size();
 	outputs.mesh("", model);
-	outputs.indices("face_of_origin", {faces}, [&](std::size_t f) { return outcome.origin[f]; });
-	outputs.indices("chart", {faces}, [&](std::size_t f) { return outcome.chart[f]; });
+	outputs.add<int32_t>(
+		"face_of_origin", {faces}, [&](std::size_t f) { return outcome.origin[f]; });
+	outputs.add<int32_t>("chart", {faces}, [&](std::size_t f) { return outcome.chart[f]; });
 	if (input("faux") != nullptr)
-		outputs.add<unsigned char>("faux", RICCI_BOOL, {faces, 3}, [&](std::size_t i) {
-			return m.face[i / 3].IsF(static_cast<int>(i % 3)) ? 1 : 0;
+		outputs.add<bool>("faux", {faces, 3}, [&](std::size_t i) {
+			return m.face[i / 3].IsF(static_cast<int>(i % 3));
 		});
 	outputs.attribute("log_radius", "ricci_u", m);
 	outputs.attribute("target_curvature", "ricci_target_curvature", m);

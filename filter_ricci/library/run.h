@@ -59,13 +59,15 @@ private:
 	void checkLengths() const;
 	void fill(MeshDocument& document) const;
 
+	static int32_t nobody(void*, double, const char*) { return 1; }
+
 	int m_filter;
 	Parameters m_parameters;
 	std::map<std::string, Array> m_inputs;
 	std::vector<std::string> m_pictureNames;
 	std::vector<host::Picture> m_pictures; // [picture]
 	std::string m_name, m_folder;
-	ricci_listener m_listener = nullptr;
+	ricci_listener m_listener = nobody;
 	void* m_context = nullptr;
 	std::vector<Array> m_outputs;
 };

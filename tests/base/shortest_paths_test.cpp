@@ -2,17 +2,15 @@
 #include "support/random.h"
 
 #include <ricci/base/graphs.h>
+#include <ricci/base/numbers.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Links from one node to another, some of them parallel, some loops.
 struct Graph

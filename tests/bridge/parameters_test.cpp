@@ -83,24 +83,21 @@ TEST(Parameters, TakeTexts)
 		Parameter p = *findParameter(filterParameters(Euclidean), name);
 		return std::pair(setFromText(p, text), p.value);
 	};
-	using Value = Parameter::Value;
-	const std::pair<std::string, Value> expected[] = {
-		{"", 2},
-		{"", 2},
-		{"", -3},
-		{"", true},
-		{"", false},
-		{"", 12},
-		{"", 0.125},
-		{"", std::string(" a ")}};
-	EXPECT_EQ(read("finish", "LEAST distortion"), expected[0]);
-	EXPECT_EQ(read("finish", "2"), expected[1]);
-	EXPECT_EQ(read("finish", "-3"), expected[2]); // the range is looked at later
-	EXPECT_EQ(read("colorize", "True"), expected[3]);
-	EXPECT_EQ(read("colorize", "0"), expected[4]);
-	EXPECT_EQ(read("cone_count", "12"), expected[5]);
-	EXPECT_EQ(read("cone_distortion", "1.25e-1"), expected[6]);
-	EXPECT_EQ(read("report", " a "), expected[7]);
+	const struct
+	{
+		const char *name, *text;
+		Parameter::Value value;
+	} cases[] = {
+		{"finish", "LEAST distortion", 2},
+		{"finish", "2", 2},
+		{"finish", "-3", -3}, // the range is looked at later
+		{"colorize", "True", true},
+		{"colorize", "0", false},
+		{"cone_count", "12", 12},
+		{"cone_distortion", "1.25e-1", 0.125},
+		{"report", " a ", std::string(" a ")}};
+	for (const auto& c : cases)
+		EXPECT_EQ(read(c.name, c.text), std::pair(std::string(), c.value)) << c.text;
 	EXPECT_TRUE(std::isnan(std::get<double>(read("epsilon", "NaN").second)));
 	EXPECT_EQ(std::get<double>(read("epsilon", "-inf").second), -ricci::kInfinity);
 	for (const auto& [name, text] :

@@ -15,14 +15,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A cut that nobody would want: all edges but those that a breadth-first search of the faces
 /// crosses, less the dead ends without a mark.

@@ -94,17 +94,13 @@ SurfaceMesh triangles(ByteSource& bytes)
 	if (vertices > 2)
 		for (int v = 0; v < vertices; ++v)
 			addRandom(mesh, bytes);
-	for (int f = 0; f < faces; ++f)
-		if (vertices > 2) {
-			const int a = anyVertex(mesh, bytes), b = anyVertex(mesh, bytes),
-					  c = anyVertex(mesh, bytes);
-			mesh.triangles.push_back({a, b, c});
-		}
-		else {
-			const int a = addRandom(mesh, bytes), b = addRandom(mesh, bytes),
-					  c = addRandom(mesh, bytes);
-			mesh.triangles.push_back({a, b, c});
-		}
+	const auto corner = [&] {
+		return vertices > 2 ? anyVertex(mesh, bytes) : addRandom(mesh, bytes);
+	};
+	for (int f = 0; f < faces; ++f) {
+		const int a = corner(), b = corner(), c = corner();
+		mesh.triangles.push_back({a, b, c});
+	}
 	return mesh;
 }
 

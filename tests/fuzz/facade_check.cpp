@@ -528,13 +528,10 @@ Execution run(const HostileMesh& hostile)
 		OutputTriangulation::CommonRefinement;
 	if (execution.defect.empty() && refined)
 		execution.defect = defectOfPieces(reading, result.mesh, m.vert.size());
-	if (!execution.defect.empty())
-		return execution;
 	const bool finished = isOrdinary(hostile, reading, result.report);
-	execution.defect = miscounted<Mesh>(result, reading, finished, hostile.hyperbolic);
-	if (!execution.defect.empty())
-		return execution;
-	if (hostile.hyperbolic)
+	if (execution.defect.empty())
+		execution.defect = miscounted<Mesh>(result, reading, finished, hostile.hyperbolic);
+	if (execution.defect.empty() && hostile.hyperbolic)
 		execution.defect = defectOfCover<Mesh>(m, result, hostile.rings);
 	if (!execution.defect.empty())
 		return execution;

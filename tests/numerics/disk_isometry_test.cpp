@@ -2,6 +2,7 @@
 #include "support/random.h"
 #include "support/wide.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/numerics/disk_isometry.h>
 
@@ -12,8 +13,6 @@
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Complex = std::complex<double>;
 

@@ -15,13 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A map of a mesh's own triangles to the plane, cut open.
 struct CutMap

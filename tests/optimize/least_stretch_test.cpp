@@ -86,17 +86,22 @@ Patch whole(const FlatMesh& flat)
 	return patch;
 }
 
-TEST(SymmetricDirichlet, GradientIsThatOfDifferences)
+PatchEnergy stretchOf(const FlatMesh& flat, const Patch& patch)
 {
-	Random random(641);
-	const FlatMesh flat = waves();
-	const Patch patch = whole(flat);
-	PatchEnergy energy(
+	return PatchEnergy(
 		flat,
 		allPoints(flat),
 		patch,
 		restShapes(flat, patch, RestShapes::OfSurfaceEvenly, {}),
 		PatchCost::SymmetricDirichlet);
+}
+
+TEST(SymmetricDirichlet, GradientIsThatOfDifferences)
+{
+	Random random(641);
+	const FlatMesh flat = waves();
+	const Patch patch = whole(flat);
+	PatchEnergy energy = stretchOf(flat, patch);
 	Eigen::VectorXd x(energy.size()), gradient, step;
 	for (double& v : x)
 		v = random.real(-0.1, 0.1);
@@ -119,12 +124,7 @@ TEST(SymmetricDirichlet, IsInfiniteWhereATriangleIsFlippedUnlessItDoesNotCount)
 	FlatMesh flat = square();
 	const Triangle t = flat.points[40];
 	const Patch patch = whole(flat);
-	PatchEnergy energy(
-		flat,
-		allPoints(flat),
-		patch,
-		restShapes(flat, patch, RestShapes::OfSurfaceEvenly, {}),
-		PatchCost::SymmetricDirichlet);
+	PatchEnergy energy = stretchOf(flat, patch);
 	Eigen::VectorXd x = Eigen::VectorXd::Zero(energy.size());
 	EXPECT_NEAR(energy.value(x, 0.0), 4.0, 1e-12);
 	x[2 * t[0]] += 3.0;

@@ -28,6 +28,20 @@ struct Call
 };
 std::ostream& operator<<(std::ostream& out, const Call& call);
 
+/// Options with a change, inDisk() those of parametrizeHyperbolic().
+template<class AnyOptions = Options, class Change>
+AnyOptions with(const Change& change)
+{
+	AnyOptions options;
+	change(options);
+	return options;
+}
+template<class Change>
+HyperbolicOptions inDisk(const Change& change)
+{
+	return with<HyperbolicOptions>(change);
+}
+
 /// Names of parametrised tests.
 struct CallName
 {
@@ -46,7 +60,7 @@ struct Outcome
 };
 Outcome outcomeOf(const Call& call);
 
-/// A number of a report.
+/// A number of a report, named like the results of the filter.
 struct Figure
 {
 	enum Kind {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
 // tabs between the columns; the last column is the refusal, if there is one.
+#include "calls.h"
 #include "flat_map.h"
 #include "listener.h"
 #include "mesh_file.h"
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -43,23 +45,10 @@ const char* const kUsage =
 	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
 	"  --verbose            the log on standard error\n";
 
-struct NamedTarget
-{
-	const char* name;
-	TargetCurvature value;
-};
-
-constexpr NamedTarget kTargets[] = {
-	{"automatic", TargetCurvature::Automatic},
-	{"flat", TargetCurvature::Flat},
-	{"disk", TargetCurvature::Disk},
-	{"rectangle", TargetCurvature::Rectangle},
-	{"cones", TargetCurvature::PlacedCones}};
-
 struct Arguments
 {
 	Options options;
-	std::vector<NamedTarget> targets;
+	std::vector<std::pair<std::string, TargetCurvature>> targets;
 	std::vector<std::string> meshes;
 	std::string objFolder;
 	bool packed = false;
@@ -83,14 +72,6 @@ Value choose(const std::string& word, std::initializer_list<std::pair<const char
 	fail("Unknown word: " + word);
 }
 
-NamedTarget targetByName(const std::string& word)
-{
-	for (const NamedTarget& target : kTargets)
-		if (word == target.name)
-			return target;
-	fail("Unknown target: " + word);
-}
-
 Arguments parse(int argc, char** argv)
 {
 	Arguments a;
@@ -101,8 +82,18 @@ Arguments parse(int argc, char** argv)
 				fail(word + " needs a value.");
 			return argv[i];
 		};
-		if (word == "--target")
-			a.targets.push_back(targetByName(value()));
+		if (word == "--target") {
+			const std::string name = value();
+			a.targets.emplace_back(
+				name,
+				choose<TargetCurvature>(
+					name,
+					{{"automatic", TargetCurvature::Automatic},
+					 {"flat", TargetCurvature::Flat},
+					 {"disk", TargetCurvature::Disk},
+					 {"rectangle", TargetCurvature::Rectangle},
+					 {"cones", TargetCurvature::PlacedCones}}));
+		}
 		else if (word == "--method")
 			a.options.method = choose<Method>(
 				value(),
@@ -154,7 +145,7 @@ Arguments parse(int argc, char** argv)
 	if (a.meshes.empty())
 		fail("No mesh.");
 	if (a.targets.empty())
-		a.targets.push_back(kTargets[0]);
+		a.targets.emplace_back("automatic", TargetCurvature::Automatic);
 	return a;
 }
 
@@ -174,23 +165,10 @@ private:
 
 void printHeader()
 {
-	std::puts(
-		"mesh\ttarget\tV\tF\tcomponents\tchi\tgenus\tloops\titerations\tresidual\tfloor\tqc_mean\t"
-		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tarea_mean\tarea_spread\tflipped\tflipped_"
-		"float\tflips\tadded_"
-		"points\tswaps\tsplits\tbroken\tcones\tseam_edges\tseam_length\tseam_relative\t"
-		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\toccupancy\ttau_re\ttau_"
-		"im\tmodulus\taspect\tcpu_s\tuv_charts\tbetween_charts\twithin_charts\trefused");
-}
-
-/// A number, or a dash where there is none.
-std::string number(const std::optional<double>& x)
-{
-	if (!x)
-		return "-";
-	char text[32];
-	std::snprintf(text, sizeof text, "%.9g", *x);
-	return text;
+	std::printf("mesh\ttarget\tV\tF");
+	for (const testing::Figure& figure : testing::figuresOf(Report()))
+		std::printf("\t%s", figure.name);
+	std::puts("\tseam_mismatch\tcpu_s\tuv_charts\tbetween_charts\twithin_charts\trefused");
 }
 
 /// What a run gives back: the input or its refinement, with its map.
@@ -260,55 +238,18 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 
 void printResult(const Outcome& out, bool packed)
 {
-	const Report& r = out.report;
-	std::printf(
-		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%.4g\t%.4f\t%d\t%d\t%d\t"
-		"%d\t%d\t%d\t%d\t%d\t%d\t%.5g\t%.4f\t",
-		r.components,
-		r.eulerCharacteristic,
-		r.genus,
-		r.boundaryLoops,
-		r.iterations,
-		r.maxCurvatureError,
-		r.residualFloor,
-		r.qcMean,
-		r.qcVertexMean,
-		r.qcAreaMean,
-		r.qcP99,
-		r.qcMax,
-		r.areaDistortionMean,
-		r.areaDistortionSpread,
-		r.flippedFaces,
-		r.flippedFaces + r.flippedByRounding,
-		r.flips,
-		r.refinementPoints,
-		r.edgeSwaps,
-		r.boundarySplits,
-		r.brokenTriangles,
-		r.cones,
-		r.seamEdges,
-		r.seamLength,
-		r.seamLengthRelative);
+	for (const testing::Figure& figure : testing::figuresOf(out.report))
+		std::printf(
+			"\t%.9g", figure.value); // overlaps and occupancy are 0 where charts are not packed
 	// The measure takes coherent faces; turned ones would look like a tear.
 	bool coherent = true;
 	for (char reversed : out.reversed)
 		coherent &= reversed == 0;
 	if (coherent)
-		std::printf("%.1e", testing::FlatMap(out.drawn, out.uv).seamMismatch);
+		std::printf("\t%.1e", testing::FlatMap(out.drawn, out.uv).seamMismatch);
 	else
-		std::printf("-");
-	std::printf(
-		"\t%d\t%d\t%d\t%d\t%.3f\t%s\t%s\t%s\t%s\t%.2f",
-		r.charts,
-		r.overlappingCharts,
-		r.overlappingFaces,
-		r.overlapCuts,
-		r.occupancy, // 0 where the charts are not packed, as overlaps are
-		number(r.torusTauRe).c_str(),
-		number(r.torusTauIm).c_str(),
-		number(r.annulusModulus).c_str(),
-		number(r.rectangleAspect).c_str(),
-		out.seconds);
+		std::printf("\t-");
+	std::printf("\t%.2f", out.seconds);
 	if (packed) {
 		const testing::CoveredTwice found(out.drawn, out.uv, out.reversed);
 		std::printf("\t%d\t%ld\t%ld\t-\n", found.charts, found.betweenCharts, found.withinCharts);
@@ -318,16 +259,20 @@ void printResult(const Outcome& out, bool packed)
 }
 
 /// \return whether a map was found
-bool addRow(const Arguments& a, const std::string& path, const NamedTarget& target)
+bool addRow(
+	const Arguments& a,
+	const std::string& path,
+	const std::string& targetName,
+	TargetCurvature target)
 {
 	const std::string name = std::filesystem::path(path).stem().string();
-	std::printf("%s\t%s", name.c_str(), target.name);
+	std::printf("%s\t%s", name.c_str(), targetName.c_str());
 	try {
 		const SurfaceMesh mesh = testing::readMesh(path);
 		std::printf("\t%zu\t%zu", mesh.positions.size(), mesh.triangles.size());
 		std::fflush(stdout);
 		Options options = a.options;
-		options.target = target.value;
+		options.target = target;
 		Listener listener(a.verbose);
 		const Outcome out =
 			a.packed ? runPacked(mesh, options, a, listener) : runCore(mesh, options, listener);
@@ -336,13 +281,13 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 			listener.log(note);
 		if (!a.objFolder.empty())
 			testing::writeObj(
-				(std::filesystem::path(a.objFolder) / (name + "." + target.name + ".obj")).string(),
+				(std::filesystem::path(a.objFolder) / (name + "." + targetName + ".obj")).string(),
 				out.drawn,
 				out.uv);
 		return true;
 	}
 	catch (const std::exception& error) {
-		for (int column = 0; column < 38; ++column)
+		for (std::size_t column = 0; column < testing::figuresOf(Report()).size() + 5; ++column)
 			std::printf("\t-");
 		std::printf("\t%s\n", error.what());
 		return false;
@@ -357,8 +302,8 @@ int main(int argc, char** argv)
 	printHeader();
 	bool allMapped = true;
 	for (const std::string& mesh : a.meshes)
-		for (const NamedTarget& target : a.targets) {
-			allMapped &= addRow(a, mesh, target);
+		for (const auto& [name, target] : a.targets) {
+			allMapped &= addRow(a, mesh, name, target);
 			std::fflush(stdout);
 		}
 	return allMapped ? 0 : 1;

@@ -15,8 +15,6 @@ namespace ricci::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Rounding of a place in the plane, relative to the size of the map.
 constexpr double kPlaceRounding = 1e-15;
 
