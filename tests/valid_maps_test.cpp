@@ -5,10 +5,16 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -128,6 +134,85 @@ TEST_P(ValidMaps, HoldInFloats)
 		EXPECT_LT(FlatMap(body.mesh, stored.uv).seamMismatch, 1e-3);
 	}
 	EXPECT_GE(maps, 3);
+}
+
+/// The boundary loop of a disk: its points in the map, in order.
+std::vector<Point2> borderOf(const SurfaceMesh& mesh, const FlatMesh& map)
+{
+	std::map<int, std::pair<int, Point2>> next; // [vertex] the one after it, and its own place
+	std::set<std::array<int, 2>> sides;
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k)
+			sides.insert({t[k], t[(k + 1) % 3]});
+	for (int f = 0; f < map.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (const Triangle& t = map.vertices[f]; sides.count({t[(k + 1) % 3], t[k]}) == 0)
+				next[t[k]] = {t[(k + 1) % 3], map.at(f)[k]};
+	std::vector<Point2> border;
+	int v = next.begin()->first;
+	do {
+		border.push_back(next.at(v).second);
+		v = next.at(v).first;
+	} while (v != next.begin()->first);
+	EXPECT_EQ(border.size(), next.size());
+	return border;
+}
+
+/// Three points of a circle span an area if they are in their order, so that a disk can be both: round as far as its
+/// numbers tell, and without flipped triangles, with two edges of a triangle on its boundary, too, which straight lines
+/// make flat.
+TEST(ValidRoundDisks, StayRound)
+{
+	Random random(60);
+	std::vector<SurfaceMesh> disks{
+		rectangle(1, 1, 1, 1),
+		sliverDisk(10, 2.0, random),
+		randomPlanarDisk(20, random),
+		sphereWithTube(0.08, 2.0, 0.6, 12, 12)};
+	disks.push_back({{{0, 0, 0}, {3, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}}); // three edges on it
+	for (const int n : {8, 20, 60, 60, 60}) {
+		disks.push_back(shaken(rectangle(n, n, 1, 1), 0.3 / n, random));
+		for (Point3& p : disks.back().positions)
+			p[2] = 0.0;
+	}
+	for (const SurfaceMesh& mesh : disks)
+		for (const bool isImplied : {false, true})
+			for (const Finish finish : {Finish::None, Finish::Repair, Finish::LeastDistortion}) {
+				SCOPED_TRACE(mesh.triangles.size());
+				Options options;
+				options.finish = finish;
+				options.freeBoundary = !isImplied; // Automatic then takes a disk
+				if (isImplied)
+					options.charts = Charts::OfTheFlow; // not cut
+				options.target = isImplied ? TargetCurvature::Automatic : TargetCurvature::Disk;
+				const Parametrization map = parametrizeEuclidean(mesh, VertexInput(), options);
+				if (finish != Finish::None) {
+					EXPECT_EQ(Stored(map.mesh).flipped, 0);
+					EXPECT_EQ(map.charts.size(), 1u);
+				}
+				const std::vector<Point2> border = borderOf(mesh, map.mesh);
+				const auto n = border.size();
+				using Complex = std::complex<double>;
+				const Complex a = asComplex(border[0]), u = asComplex(border[n / 3]) - a;
+				const Complex v = asComplex(border[2 * n / 3]) - a;
+				const Complex toCentre = Complex(0, 0.5) * (std::norm(v) * u - std::norm(u) * v) /
+										 (std::conj(u) * v).imag();
+				const double radius = std::abs(toCentre);
+				double turned = 0.0;
+				for (std::size_t i = 0; i < n; ++i) {
+					const Complex p = asComplex(border[i]) - a - toCentre;
+					const Complex q = asComplex(border[(i + 1) % n]) - a - toCentre;
+					EXPECT_NEAR(std::abs(p), radius, 1e-12 * radius);
+					const Point2 stored{roundedToFloat(border[i][0]), roundedToFloat(border[i][1])};
+					EXPECT_NEAR( // half a step below 1 along both axes
+						std::abs(asComplex(stored) - a - toCentre),
+						radius,
+						std::sqrt(2.0) * 0x1p-25 * (1 + 1e-6));
+					EXPECT_GT(std::arg(q / p), 0.0);
+					turned += std::arg(q / p);
+				}
+				EXPECT_NEAR(turned, 2 * kPi, 1e-9);
+			}
 }
 
 /// Long thin plates with holes, whose pictures are far from what straight triangles can draw.

@@ -16,6 +16,7 @@
 #include "measure/map_check.h"
 #include "mesh/flow_domain.h"
 #include "optimize/finish.h"
+#include "optimize/round_border.h"
 
 #include <algorithm>
 #include <cmath>
@@ -227,6 +228,8 @@ PlaneMap layOut(
 	PlaneMap map;
 	map.mesh = flatMeshOf(component, domain, layout.corners);
 	map.refinement = std::move(layout.refinement);
+	if (flow.target.circular)
+		makeRound(map.mesh);
 	if (!flow.target.hasFixed()) { // else the boundary keeps its metric, which fixes the scale
 		double area = flow.area;   // of what is given back, without caps
 		if (domain.holes > 0) {

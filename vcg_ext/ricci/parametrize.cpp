@@ -228,6 +228,7 @@ void pack(const Options& options, WholeMap& whole)
 	rules.keepsMesh = options.output == OutputTriangulation::KeepMesh;
 	rules.mayCut = mayCutCharts(options);
 	rules.keepsBoundary = isOneChart(options);
+	rules.slidesOnCircles = !rules.mayCut && (rules.keepsBoundary || !options.freeBoundary);
 	FloatRepair repair;
 	bool isChanged = false;
 	for (int packings = 1; packings == 1 || repair.needsPacking; ++packings) {

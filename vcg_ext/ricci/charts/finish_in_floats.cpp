@@ -121,7 +121,7 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 		result.add(repairInStages(
 			map.mesh,
 			[](int) { return false; },
-			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary},
+			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary, rules.slidesOnCircles},
 			limit));
 	FloatRepair done{result.movedCount()};
 	if (!rules.mayGrow)

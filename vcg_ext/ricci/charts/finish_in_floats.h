@@ -12,9 +12,9 @@ struct FloatRules
 	/// The triangles are the mesh's own, not pieces of a refinement: those of a map that fills the unit square which
 	/// six decimals would flip are mended, too, and all that are lost are cut off, however many.
 	bool keepsMesh = true;
-	bool mayCut = true;         ///< else no triangle is cut off
-	bool keepsBoundary = false; ///< see RepairRules
-	bool mayGrow = true;        ///< whether charts may leave their boxes, and be packed again
+	bool mayCut = true;                                  ///< else no triangle is cut off
+	bool keepsBoundary = false, slidesOnCircles = false; ///< see RepairRules
+	bool mayGrow = true; ///< whether charts may leave their boxes, and be packed again
 };
 
 struct FloatRepair

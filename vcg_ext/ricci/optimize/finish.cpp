@@ -62,7 +62,10 @@ FinishCounts finishInPlane(
 		const CostOfPatch cost = mayCut ? costWithCuts(flat, validity) : nullptr;
 		WorkLimit limit(flat.points.size(), WorkLimit::kFew);
 		const Repair result = repairInStages(
-			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, !freeBoundary}, limit);
+			flat,
+			boundaryMoves,
+			{RestShapes::OfSurface, validity, cost, !freeBoundary, !freeBoundary && !mayCut},
+			limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)
 			logLine(

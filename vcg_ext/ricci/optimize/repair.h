@@ -24,6 +24,8 @@ struct RepairRules
 	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
 	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
 	bool keepsBoundary = false;
+	/// It is prescribed, and nothing may be cut off instead: where it is a circle, it moves along that alone.
+	bool slidesOnCircles = false;
 };
 
 /// A patch whose triangles are to be valid, and as near to the shapes of the rules as its border lets them be.
@@ -114,7 +116,8 @@ Repair
 repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit);
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
-/// of seam vertices together, and the boundary where it is free; the boundary everywhere, if the rules let it.
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere, if the rules let it. Points of
+/// circles are moved along these before (slideOnCircles()).
 /// Triangles of the surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit);
