@@ -27,7 +27,7 @@ run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const Vertex
 	return runInDisk(mesh, options, input);
 }
 
-HyperbolicOptions refined()
+HyperbolicOptions refinedInDisk()
 {
 	HyperbolicOptions options;
 	options.output = OutputTriangulation::CommonRefinement;
@@ -75,7 +75,7 @@ std::array<double, 3> angles(const Triangle2& t)
 TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 {
 	const SurfaceMesh mesh = genusTwo();
-	const FlatResult kept = run(mesh), exact = run(mesh, refined());
+	const FlatResult kept = run(mesh), exact = run(mesh, refinedInDisk());
 	// One figure except for a motion of the disk: seen from one corner in the direction of the next.
 	const auto seen = [](const FlatResult& map, const Point2& p) {
 		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
@@ -137,7 +137,7 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	// one triangle. The disk then is a picture of the flat metric with the same cones.
 	Random random(706);
 	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
-	HyperbolicOptions options = refined();
+	HyperbolicOptions options = refinedInDisk();
 	options.finish = Finish::None; // floats cannot hold it
 	options.target = HyperbolicTarget::Prescribed;
 	VertexInput input;
@@ -200,7 +200,7 @@ TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 TEST(ParametrizeHyperbolic, TheReportMeasuresTheOutput)
 {
 	const SurfaceMesh mesh = genusTwo();
-	for (const HyperbolicOptions& options : {HyperbolicOptions(), refined()}) {
+	for (const HyperbolicOptions& options : {HyperbolicOptions(), refinedInDisk()}) {
 		const FlatResult map = run(mesh, options);
 		UV chords;
 		for (const Triangle2& t : map.mesh.corners()) {
@@ -300,7 +300,7 @@ SurfaceMesh skeleton(int genus)
 /// The refinement's geodesic triangles, before floats have a part in it.
 FlatResult asFound(const SurfaceMesh& mesh, const VertexInput& input = {})
 {
-	HyperbolicOptions options = refined();
+	HyperbolicOptions options = refinedInDisk();
 	options.finish = Finish::None;
 	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
 												   : HyperbolicTarget::Prescribed;
