@@ -4,7 +4,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/cones/cone_curvatures.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace ricci::testing {

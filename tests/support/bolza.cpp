@@ -3,7 +3,6 @@
 
 #include "intrinsic.h"
 #include "shapes.h"
-#include "wide.h"
 
 #include <array>
 #include <cmath>
@@ -11,6 +10,8 @@
 namespace ricci::testing {
 
 namespace {
+
+constexpr long double kPi = 3.14159265358979323846264338327950288L;
 
 using Complex = BolzaSurface::Complex;
 
@@ -36,12 +37,12 @@ struct Pieces
 Pieces octagon()
 {
 	// Half the angles at the centre and at the corners are pi / 8: cosh R = cot^2(pi / 8).
-	const long double cotangent = 1 / std::tan(kWidePi / 8);
+	const long double cotangent = 1 / std::tan(kPi / 8);
 	const long double radius = std::tanh(std::acosh(cotangent * cotangent) / 2);
 	Pieces p;
 	p.vertexCount = 2; // the centre, and the corners, which are one point
 	for (int i = 0; i < 8; ++i) {
-		const long double turn = kWidePi / 4;
+		const long double turn = kPi / 4;
 		p.triangles.push_back({0, 1, 1});
 		p.place.push_back(
 			{Complex(0), std::polar(radius, turn * i), std::polar(radius, turn * (i + 1))});
@@ -141,7 +142,7 @@ BolzaSurface::BolzaSurface(int levels)
 			cut.length += lengths[e];
 			// The middle of side i of the octagon is at (i + 1/2) pi / 4.
 			const Complex middle = midpoint(q[k], q[(k + 1) % 3]);
-			const double turn = static_cast<double>(std::arg(middle) / (kWidePi / 4));
+			const double turn = static_cast<double>(std::arg(middle) / (kPi / 4));
 			const auto side = at((static_cast<int>(std::floor(turn)) + 8) % 4);
 			if (!sideHasGenerator[side]) {
 				sideHasGenerator[side] = 1;

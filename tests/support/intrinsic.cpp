@@ -2,7 +2,6 @@
 #include "intrinsic.h"
 
 #include "shapes.h"
-#include "wide.h"
 
 #include <algorithm>
 #include <ricci/mesh/flow_domain.h>
@@ -15,6 +14,8 @@
 namespace ricci::testing {
 
 namespace {
+
+constexpr long double kPi = 3.14159265358979323846264338327950288L;
 
 /// Least angle that a side of the quad may turn by at the ends of a flipped edge.
 constexpr long double kConvexityMargin = 1e-3L;
@@ -40,7 +41,7 @@ long double cornerAt(const IntrinsicMesh& mesh, Halfedge h)
 
 Point3 onCircle(int i, int n)
 {
-	const double a = 2 * static_cast<double>(kWidePi) * i / n;
+	const double a = 2 * static_cast<double>(kPi) * i / n;
 	return {std::cos(a), std::sin(a), 0.0};
 }
 
@@ -106,12 +107,12 @@ Triangulation oneVertexTorus()
 }
 
 MetricMeasure::MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :
-		curvature(t.vertexCount(), 2 * kWidePi)
+		curvature(t.vertexCount(), 2 * kPi)
 {
 	const VertexArray<char> boundary = t.boundaryVertices();
 	for (const Vertex v : t.vertices())
 		if (boundary[v])
-			curvature[v] = kWidePi;
+			curvature[v] = kPi;
 	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		std::array<long double, 3> l;
@@ -147,7 +148,7 @@ std::vector<Edge> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& r
 		const Halfedge h = e.halfedge(), g = h.twin();
 		const long double start = cornerAt(mesh, h) + cornerAt(mesh, t.next(g));
 		const long double end = cornerAt(mesh, g) + cornerAt(mesh, t.next(h));
-		if (start > kWidePi - kConvexityMargin || end > kWidePi - kConvexityMargin)
+		if (start > kPi - kConvexityMargin || end > kPi - kConvexityMargin)
 			continue;
 		const long double a = mesh.lengths[t.previous(h).edge()];
 		const long double b = mesh.lengths[t.next(g).edge()];

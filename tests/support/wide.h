@@ -15,8 +15,6 @@
 
 namespace ricci::testing {
 
-constexpr long double kWidePi = 3.14159265358979323846264338327950288L;
-
 /// Extended numbers in the arithmetic that tests compare with.
 inline long double wide(DoubleDouble x)
 {
