@@ -71,7 +71,7 @@ typename FlowOf<Mesh>::Result compute(const Mesh& m, const typename FlowOf<Mesh>
 
 /// The error of type \p Refusal that Compute() throws.
 template<class Refusal, class Mesh>
-Refusal refusalOf(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
+Refusal refusalWith(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
 {
 	return errorOf<Refusal>([&] { compute(m, par); }).value(); // throws if the mesh is accepted
 }
@@ -184,7 +184,8 @@ TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
 	// An error beyond rounding is not spread.
 	m.vert[0].Q() += Quality(0.01);
 	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed);
-	EXPECT_EQ(refusalOf<InadmissibleCurvature>(m, par).problem, InadmissibleCurvature::GaussBonnet);
+	EXPECT_EQ(
+		refusalWith<InadmissibleCurvature>(m, par).problem, InadmissibleCurvature::GaussBonnet);
 }
 
 TYPED_TEST(Facade, ReadsTheSelection)
@@ -201,7 +202,7 @@ TYPED_TEST(Facade, ReadsTheSelection)
 	EXPECT_NEAR(*result.report.rectangleAspect, 1.5, 1e-6);
 	m.vert[0].ClearS();
 	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle);
-	const auto refusal = refusalOf<InvalidOption>(m, par);
+	const auto refusal = refusalWith<InvalidOption>(m, par);
 	EXPECT_EQ(refusal.problem, InvalidOption::CornerCount);
 	EXPECT_EQ(refusal.count, 3u);
 }
@@ -239,7 +240,7 @@ TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
 	toVcg(tetrahedron(), other);
 	const auto refused = [&](const char* beginning, std::size_t faces) {
 		const auto before = contents(m);
-		const auto refusal = refusalOf<InvalidMesh>(m, onFixedTriangulation<TypeParam>());
+		const auto refusal = refusalWith<InvalidMesh>(m, onFixedTriangulation<TypeParam>());
 		EXPECT_EQ(refusal.problem, InvalidMesh::DamagedFaces);
 		EXPECT_EQ(refusal.count, faces);
 		EXPECT_EQ(std::string(refusal.what()).rfind(beginning, 0), 0u) << refusal.what();
