@@ -55,11 +55,11 @@ private:
 /// Those of facadeRuns(), and one for each further stage.
 std::vector<FacadeRun> runs()
 {
-	using Flow = vcg::tri::RicciFlow<FloatMesh>;
+	using Facade = vcg::tri::RicciFlow<FloatMesh>;
 	std::vector<FacadeRun> all = facadeRuns();
 	const auto add = [&](const char* name, const SurfaceMesh& mesh, const Options& options) {
 		all.push_back({name, mesh, [options](const FloatMesh& m) {
-						   return Flow::Compute(m, options).report.iterations;
+						   return Facade::Compute(m, options).report.iterations;
 					   }});
 	};
 	Random random(501);
@@ -78,7 +78,7 @@ std::vector<FacadeRun> runs()
 	add("ManyComponents", sideBySide(handle, sideBySide(tetrahedron(), tetrahedron(), 9), 9), {});
 	add("KeptAreas", sphereWithTube(0.1, 2.0, 0.4, 5, 4), {});
 	all.push_back({"WideDisk", perforatedSlab(8, 1), [](const FloatMesh& m) {
-					   return Flow::ComputeHyperbolic(m, {}).report.iterations;
+					   return Facade::ComputeHyperbolic(m, {}).report.iterations;
 				   }});
 	return all;
 }

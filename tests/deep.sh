@@ -41,11 +41,12 @@ declare -A share=([wheels]=480 [blender]=60 [windows]=300 [clang]=240 [long-doub
 not_run=77
 
 # The programs of the core that read no files of others.
-portable=(base_test numerics_test mesh_test metric_test cut_test layout_test measure_test error_sentences_test)
+portable=(base_test numerics_test mesh_test metric_test cut_test layout_test measure_test solver_test
+	bridge_test)
 portable_all=(flow_test cones_test charts_test optimize_test hyperbolic_test
-	public_test free_memory_test)
+	public_test)
 # The programs that meet hostile input.
-hostile=(numerics_test mesh_test cut_test charts_test layout_test public_test faults_test)
+hostile=(numerics_test solver_test mesh_test cut_test charts_test layout_test public_test faults_test)
 hostile_all=(base_test metric_test flow_test cones_test measure_test)
 
 have() {

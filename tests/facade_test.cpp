@@ -22,10 +22,10 @@ namespace ricci::testing {
 namespace {
 
 template<class Mesh>
-using Flow = vcg::tri::RicciFlow<Mesh>;
+using FlowOf = vcg::tri::RicciFlow<Mesh>;
 
 template<class Mesh>
-using Layers = vcg::tri::RicciFlowLayers<Mesh>;
+using LayersOf = vcg::tri::RicciFlowLayers<Mesh>;
 
 template<class Mesh>
 class Facade : public ::testing::Test
@@ -54,24 +54,24 @@ void fill(const SurfaceMesh& shape, Mesh& m)
 }
 
 template<class Mesh>
-typename Flow<Mesh>::Params
+typename FlowOf<Mesh>::Params
 onFixedTriangulation(TargetCurvature target = TargetCurvature::Automatic)
 {
-	typename Flow<Mesh>::Params par;
+	typename FlowOf<Mesh>::Params par;
 	par.target = target;
 	par.method = Method::FixedTriangles;
 	return par;
 }
 
 template<class Mesh>
-typename Flow<Mesh>::Result compute(const Mesh& m, const typename Flow<Mesh>::Params& par)
+typename FlowOf<Mesh>::Result compute(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
 {
-	return Flow<Mesh>::Compute(m, par);
+	return FlowOf<Mesh>::Compute(m, par);
 }
 
 /// The error of type \p Refusal that Compute() throws.
 template<class Refusal, class Mesh>
-Refusal refusalOf(const Mesh& m, const typename Flow<Mesh>::Params& par)
+Refusal refusalWith(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
 {
 	return errorOf<Refusal>([&] { compute(m, par); }).value(); // throws if the mesh is accepted
 }
@@ -105,7 +105,7 @@ TYPED_TEST(Facade, SixDecimalsTurnNoTriangleRound)
 	});
 	TypeParam m;
 	toVcg(slivers, m);
-	typename Flow<TypeParam>::Params par;
+	typename FlowOf<TypeParam>::Params par;
 	par.normalizeUV = true;
 	const auto turnedInText = [&](const auto& map) {
 		int turned = 0;
@@ -136,8 +136,8 @@ TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)
 	TypeParam m;
 	fill(bumpyTorus(12, 8, random), m);
 	const auto result = compute(m, onFixedTriangulation<TypeParam>());
-	Flow<TypeParam>::WriteWedgeTexCoord(m, result);
-	Flow<TypeParam>::WriteVertexQuality(m, result);
+	FlowOf<TypeParam>::WriteWedgeTexCoord(m, result);
+	FlowOf<TypeParam>::WriteVertexQuality(m, result);
 	const std::vector<Triangle2> wedges = wedgesOf(result);
 	for (std::size_t f = 0; f < m.face.size(); ++f)
 		for (int k = 0; k < 3; ++k) {
@@ -159,7 +159,7 @@ TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)
 	}
 	// A second run finds its attributes and makes no others.
 	const auto count = m.vert_attr.size();
-	Flow<TypeParam>::WriteVertexQuality(m, result);
+	FlowOf<TypeParam>::WriteVertexQuality(m, result);
 	EXPECT_EQ(m.vert_attr.size(), count);
 }
 
@@ -184,7 +184,8 @@ TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
 	// An error beyond rounding is not spread.
 	m.vert[0].Q() += Quality(0.01);
 	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed);
-	EXPECT_EQ(refusalOf<InadmissibleCurvature>(m, par).problem, InadmissibleCurvature::GaussBonnet);
+	EXPECT_EQ(
+		refusalWith<InadmissibleCurvature>(m, par).problem, InadmissibleCurvature::GaussBonnet);
 }
 
 TYPED_TEST(Facade, ReadsTheSelection)
@@ -201,7 +202,7 @@ TYPED_TEST(Facade, ReadsTheSelection)
 	EXPECT_NEAR(*result.report.rectangleAspect, 1.5, 1e-6);
 	m.vert[0].ClearS();
 	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle);
-	const auto refusal = refusalOf<InvalidOption>(m, par);
+	const auto refusal = refusalWith<InvalidOption>(m, par);
 	EXPECT_EQ(refusal.problem, InvalidOption::CornerCount);
 	EXPECT_EQ(refusal.count, 3u);
 }
@@ -228,8 +229,8 @@ TYPED_TEST(Facade, DeletedElementsTakeNoPart)
 		EXPECT_EQ(a.mesh.face[f] + 4, b.mesh.face[f]);
 	for (std::size_t v = 0; v < a.u.size(); ++v)
 		EXPECT_EQ(a.u[v], b.u[v + 4]);
-	Flow<TypeParam>::WriteWedgeTexCoord(dirty, b);
-	Flow<TypeParam>::WriteVertexQuality(dirty, b);
+	FlowOf<TypeParam>::WriteWedgeTexCoord(dirty, b);
+	FlowOf<TypeParam>::WriteVertexQuality(dirty, b);
 }
 
 TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
@@ -239,7 +240,7 @@ TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
 	toVcg(tetrahedron(), other);
 	const auto refused = [&](const char* beginning, std::size_t faces) {
 		const auto before = contents(m);
-		const auto refusal = refusalOf<InvalidMesh>(m, onFixedTriangulation<TypeParam>());
+		const auto refusal = refusalWith<InvalidMesh>(m, onFixedTriangulation<TypeParam>());
 		EXPECT_EQ(refusal.problem, InvalidMesh::DamagedFaces);
 		EXPECT_EQ(refusal.count, faces);
 		EXPECT_EQ(std::string(refusal.what()).rfind(beginning, 0), 0u) << refusal.what();
@@ -263,7 +264,7 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 	auto par = onFixedTriangulation<TypeParam>();
 	par.charts = Charts::WithoutOverlap;
 	const auto result = compute(m, par);
-	Layers<TypeParam>::BuildFlatMesh(result, flat);
+	LayersOf<TypeParam>::BuildFlatMesh(result, flat);
 	ASSERT_EQ(flat.FN(), m.FN());
 	const SurfaceMesh shape = fromVcg(flat);
 	std::map<std::pair<int, int>, int> edges; // with the number of their faces
@@ -327,13 +328,13 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 	for (const auto& v : m.vert)
 		places.push_back(v.cP());
 
-	typename Flow<TypeParam>::Params params;
+	typename FlowOf<TypeParam>::Params params;
 	params.output = OutputTriangulation::CommonRefinement;
 	const auto result = compute(m, params);
 	ASSERT_GT(result.report.refinementPoints, 0);
 	EXPECT_EQ(result.report.flippedFaces, 0);
 	const int vertices = m.VN(), faces = m.FN();
-	Flow<TypeParam>::WriteRefinement(m, result);
+	FlowOf<TypeParam>::WriteRefinement(m, result);
 	EXPECT_EQ(m.VN(), vertices + result.report.refinementPoints);
 	EXPECT_EQ(m.FN(), result.mesh.size());
 	EXPECT_GT(m.FN(), faces);
@@ -357,7 +358,7 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 	EXPECT_TRUE(vcg::tri::Allocator<TypeParam>::IsValidHandle(m, u));
 
 	TypeParam flat;
-	Layers<TypeParam>::BuildFlatMesh(result, flat);
+	LayersOf<TypeParam>::BuildFlatMesh(result, flat);
 	EXPECT_EQ(flat.FN(), m.FN());
 }
 

@@ -21,13 +21,7 @@
 namespace ricci::testing {
 namespace {
 
-FlatResult
-run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const VertexInput& input = {})
-{
-	return runInDisk(mesh, options, input);
-}
-
-HyperbolicOptions refined()
+HyperbolicOptions refinedInDisk()
 {
 	HyperbolicOptions options;
 	options.output = OutputTriangulation::CommonRefinement;
@@ -75,7 +69,7 @@ std::array<double, 3> angles(const Triangle2& t)
 TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 {
 	const SurfaceMesh mesh = genusTwo();
-	const FlatResult kept = run(mesh), exact = run(mesh, refined());
+	const FlatResult kept = runInDisk(mesh, {}), exact = runInDisk(mesh, refinedInDisk());
 	// One figure except for a motion of the disk: seen from one corner in the direction of the next.
 	const auto seen = [](const FlatResult& map, const Point2& p) {
 		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
@@ -137,14 +131,14 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	// one triangle. The disk then is a picture of the flat metric with the same cones.
 	Random random(706);
 	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
-	HyperbolicOptions options = refined();
+	HyperbolicOptions options = refinedInDisk();
 	options.finish = Finish::None; // floats cannot hold it
 	options.target = HyperbolicTarget::Prescribed;
 	VertexInput input;
 	input.targetCurvature.assign(mesh.positions.size(), 0.0);
 	input.targetCurvature[5] = 1.0 + 0x1p-51;
 	input.targetCurvature[30] = -1.0;
-	const FlatResult map = run(mesh, options, input);
+	const FlatResult map = runInDisk(mesh, options, input);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	EXPECT_GT(radius(map), 0.0);
 	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
@@ -158,19 +152,19 @@ TEST(ParametrizeHyperbolic, ConesThatAreNearlyCusps)
 	options.target = HyperbolicTarget::SelectedCones;
 	options.coneAngle = 1e-8;
 	for (const SurfaceMesh& mesh : {perforatedSlab(2, 1), torus(2, 1, 8, 8)})
-		EXPECT_EQ(run(mesh, options, selecting(mesh, {0})).report.flippedFaces, 0);
+		EXPECT_EQ(runInDisk(mesh, options, selecting(mesh, {0})).report.flippedFaces, 0);
 	// The circumference at the distance r from a tip is the angle times sinh r: of a thousandth of
 	// the angle the tip lies ln 1000 farther away.
 	Random random(9);
 	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
 	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
-	const double far = radius(run(mesh, options, input));
+	const double far = radius(runInDisk(mesh, options, input));
 	options.coneAngle = 1e-5;
-	const FlatResult map = run(mesh, options, input);
+	const FlatResult map = runInDisk(mesh, options, input);
 	EXPECT_NEAR(far - radius(map), std::log(1e3), 1e-3);
 	EXPECT_LT(*map.report.relationError, 1e-8);
 	options.coneAngle = 1e-12;
-	EXPECT_EQ(run(mesh, options, input).report.flippedFaces, 0);
+	EXPECT_EQ(runInDisk(mesh, options, input).report.flippedFaces, 0);
 }
 
 /// Everything else is the same with canonical generators and without, one set for each component.
@@ -180,9 +174,9 @@ TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 	const SurfaceMesh mesh =
 		sideBySide(genusTwo(713, 2), shaken(perforatedSlab(3, 1), 0.05, random), 20.0);
 	HyperbolicOptions options;
-	const FlatResult without = run(mesh, options);
+	const FlatResult without = runInDisk(mesh, options);
 	options.canonicalGenerators = true;
-	const FlatResult with = run(mesh, options);
+	const FlatResult with = runInDisk(mesh, options);
 	EXPECT_EQ(with.uv, without.uv);
 	EXPECT_EQ(with.report.relationError, without.report.relationError);
 	ASSERT_EQ(with.charts.size(), 2u);
@@ -200,8 +194,8 @@ TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 TEST(ParametrizeHyperbolic, TheReportMeasuresTheOutput)
 {
 	const SurfaceMesh mesh = genusTwo();
-	for (const HyperbolicOptions& options : {HyperbolicOptions(), refined()}) {
-		const FlatResult map = run(mesh, options);
+	for (const HyperbolicOptions& options : {HyperbolicOptions(), refinedInDisk()}) {
+		const FlatResult map = runInDisk(mesh, options);
 		UV chords;
 		for (const Triangle2& t : map.mesh.corners()) {
 			const double a = chordLength(asComplex(t[0]), asComplex(t[1]));
@@ -224,7 +218,7 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 	for (const int genus : {14, 16}) {
 		Listener listener;
 		const FlatResult map =
-			withListener(listener, [&] { return run(perforatedSlab(genus, 2)); });
+			withListener(listener, [&] { return runInDisk(perforatedSlab(genus, 2), {}); });
 		EXPECT_GT(listener.count("around the centre"), 0);
 		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);
@@ -300,11 +294,11 @@ SurfaceMesh skeleton(int genus)
 /// The refinement's geodesic triangles, before floats have a part in it.
 FlatResult asFound(const SurfaceMesh& mesh, const VertexInput& input = {})
 {
-	HyperbolicOptions options = refined();
+	HyperbolicOptions options = refinedInDisk();
 	options.finish = Finish::None;
 	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
 												   : HyperbolicTarget::Prescribed;
-	return run(mesh, options, input);
+	return runInDisk(mesh, options, input);
 }
 
 /// Of a hyperbolic triangle, as Heron's formula is for a flat one.

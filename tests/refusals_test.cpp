@@ -507,7 +507,7 @@ TEST_P(Refusals, NameWhatIsWrongAtTheFacadeTooAndLeaveTheMesh)
 	EXPECT_EQ(
 		faces,
 		refusal.facesBefore < 0 ? 0u : refusal.mesh.triangles.size() - at(refusal.facesBefore));
-	using Flow = vcg::tri::RicciFlow<DoubleMesh>;
+	using Facade = vcg::tri::RicciFlow<DoubleMesh>;
 	const VertexInput& input = refusal.input;
 	DoubleMesh m;
 	toVcg(refusal.mesh, m);
@@ -519,11 +519,11 @@ TEST_P(Refusals, NameWhatIsWrongAtTheFacadeTooAndLeaveTheMesh)
 	const std::string before = contents(m);
 	refusal.expect([&] {
 		if (const auto* options = std::get_if<SphereOptions>(&refusal.options))
-			Flow::ComputeSphere(m, *options);
+			Facade::ComputeSphere(m, *options);
 		else if (const auto* hyperbolic = std::get_if<HyperbolicOptions>(&refusal.options))
-			Flow::ComputeHyperbolic(m, *hyperbolic);
+			Facade::ComputeHyperbolic(m, *hyperbolic);
 		else
-			Flow::Compute(m, std::get<Options>(refusal.options));
+			Facade::Compute(m, std::get<Options>(refusal.options));
 	});
 	EXPECT_EQ(contents(m) == before, true);
 }

@@ -94,9 +94,9 @@ struct Stored
 	}
 };
 
-using Case = std::tuple<std::size_t, Finish>;
+using Finished = std::tuple<std::size_t, Finish>;
 
-class ValidMaps : public ::testing::TestWithParam<Case>
+class ValidMaps : public ::testing::TestWithParam<Finished>
 {
 };
 
@@ -239,7 +239,7 @@ TEST(ValidDisks, HoldInFloats)
 		}
 }
 
-std::string nameOf(const ::testing::TestParamInfo<Case>& info)
+std::string nameOf(const ::testing::TestParamInfo<Finished>& info)
 {
 	const char* finishes[] = {"None", "Repair", "LeastDistortion", "LeastStretch"};
 	return asked()[std::get<0>(info.param)].name +

@@ -133,7 +133,7 @@ TEST(PackOutlines, UsesHolesNotchesAndTurns)
 }
 
 /// Charts of two triangles each, which fill the boxes from the origin with these sizes.
-Parametrization boxes(const std::vector<Point2>& sizes)
+Parametrization boxCharts(const std::vector<Point2>& sizes)
 {
 	SurfaceMesh all;
 	Array<int> chart;
@@ -161,7 +161,7 @@ TEST(PackCharts, ThinAndSmallChartsHaveRoomOfTheirOwn)
 	for (const std::vector<Point2>& sizes : cases)
 		for (const double margin : {0.0, 0.05})
 			for (const ChartTurns turns : {ChartTurns::None, ChartTurns::Free}) {
-				Parametrization map = boxes(sizes);
+				Parametrization map = boxCharts(sizes);
 				packCharts(map, {true, margin, ChartTurns::Free, {}}, turns);
 				for (std::size_t i = 0; i < sizes.size(); ++i) {
 					const Box2& room = map.charts[i].box;
@@ -189,7 +189,7 @@ TEST(PackCharts, ThinAndSmallChartsHaveRoomOfTheirOwn)
 					}
 				}
 			}
-	Parametrization wide = boxes({{2.0, 1.0}}); // its own box
+	Parametrization wide = boxCharts({{2.0, 1.0}}); // its own box
 	packCharts(wide, {false, 0.0, ChartTurns::Free, {}}, ChartTurns::None);
 	EXPECT_EQ(wide.charts[0].box.min, (Point2{0.0, 0.0}));
 	EXPECT_EQ(wide.charts[0].box.max, (Point2{2.0, 1.0}));

@@ -4,13 +4,13 @@
 #include <ricci/base/numbers.h>
 #include <ricci/cones/cone_curvatures.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace ricci::testing {
 namespace {
 
-constexpr double kMax = 1.5, kQuarter = 0.5 * kPi;
+constexpr double kMax = 1.5;
 
 /// k.G k + 2 b.k with a positive definite G, and its minimum among all real k (of a given sum).
 struct Quadratic
@@ -108,7 +108,7 @@ Eigen::VectorXd rounded(const Quadratic& energy)
 	const Eigen::VectorXd k =
 		roundToQuarterTurns(energy.gram, energy.linear, energy.free, energy.total);
 	for (const double x : k) {
-		EXPECT_EQ(x, kQuarter * std::round(x / kQuarter));
+		EXPECT_EQ(x, kQuarterTurn * std::round(x / kQuarterTurn));
 		EXPECT_LE(x, kMaxConeCurvature);
 	}
 	if (energy.total) {
@@ -125,7 +125,7 @@ double lowest(const Quadratic& energy, const Eigen::VectorXd& centre, int reach)
 	for (int c = 0; c < std::pow(width, n); ++c) {
 		Eigen::VectorXd k(n);
 		for (int i = 0, rest = c; i < n; ++i, rest /= width)
-			k[i] = kQuarter * (std::round(centre[i] / kQuarter) + rest % width - reach);
+			k[i] = kQuarterTurn * (std::round(centre[i] / kQuarterTurn) + rest % width - reach);
 		if (k.maxCoeff() <= kMaxConeCurvature + 1e-9 &&
 			(!energy.total || std::abs(k.sum() - *energy.total) < 1e-9))
 			lowest = std::min(lowest, energy(k));
@@ -142,18 +142,18 @@ TEST(ConeRounding, FindsALocalMinimumWhichMostlyIsTheGlobalOne)
 		const int n = 1 + trial % 4;
 		std::optional<double> total;
 		if (trial % 2 == 0)
-			total = kQuarter * (random.index(2 * n) + 1);
+			total = kQuarterTurn * (random.index(2 * n) + 1);
 		const Quadratic energy(
-			randomRoot(n, 1.0, 0.3, random), -kQuarter, 5.0 * kQuarter, total, random);
+			randomRoot(n, 1.0, 0.3, random), -kQuarterTurn, 5.0 * kQuarterTurn, total, random);
 		const Eigen::VectorXd k = rounded(energy);
 		const double found = energy(k), slack = 1e-9 * (1.0 + std::abs(found));
 		for (int up = 0; up < n; ++up)
 			for (int down = 0; down < n; ++down)
 				for (const double sign : {-1.0, 1.0}) {
 					Eigen::VectorXd other = k;
-					other[up] += sign * kQuarter;
+					other[up] += sign * kQuarterTurn;
 					if (total)
-						other[down] -= sign * kQuarter;
+						other[down] -= sign * kQuarterTurn;
 					if (other.maxCoeff() < kMaxConeCurvature + 1e-9) {
 						EXPECT_GE(energy(other), found - slack);
 					}

@@ -11,7 +11,7 @@
 namespace ricci::testing {
 namespace {
 
-EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
+EmbeddedSurface domainOf(const SurfaceMesh& mesh)
 {
 	return flowDomain(onlyComponent(mesh), Holes::Boundaries).surface;
 }
@@ -31,7 +31,7 @@ HalfedgeArray<double> anglesOf(const Triangulation& t, const EdgeArray<double>& 
 TEST(HolonomyOfALoop, IsThatBeforeIsometricFlips)
 {
 	// The loops keep their homotopy class off the vertices.
-	const EmbeddedSurface surface = surfaceOf(perforatedSlab(2, 3));
+	const EmbeddedSurface surface = domainOf(perforatedSlab(2, 3));
 	IntrinsicMesh mesh{surface.triangulation, surface.lengths};
 	std::vector<FaceLoop> loops = homologyLoops(mesh.triangulation, false);
 	const auto holonomies = [&] {
@@ -56,7 +56,7 @@ TEST(HolonomyOfALoop, IsThatBeforeIsometricFlips)
 
 TEST(SumOfAngles, HasTheDerivativeOfDifferences)
 {
-	const EmbeddedSurface surface = surfaceOf(perforatedSlab(1, 2));
+	const EmbeddedSurface surface = domainOf(perforatedSlab(1, 2));
 	const Triangulation& t = surface.triangulation;
 	Random random(3);
 	HalfedgeArray<double> weights(t.halfedgeCount(), 0.0);

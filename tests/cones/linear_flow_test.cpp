@@ -4,6 +4,8 @@
 
 #include <ricci/cones/target_curvature.h>
 
+#include <Eigen/LU>
+
 namespace ricci::testing {
 namespace {
 

@@ -2,6 +2,7 @@
 #ifndef RICCI_TESTS_LINEARISED_H
 #define RICCI_TESTS_LINEARISED_H
 
+#include "support/dense.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -9,7 +10,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/cones/linear_flow.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 namespace ricci::testing {
@@ -108,7 +109,7 @@ struct DenseFlow
 	/// The u of least norm that the Laplacian maps to \p rhs, moved to mean 0 by area.
 	VertexVector solve(const VertexVector& rhs) const
 	{
-		VertexVector u = laplacian.completeOrthogonalDecomposition().solve(rhs);
+		VertexVector u = leastNormSolution(laplacian, rhs);
 		u.array() -= area.dot(u);
 		return u;
 	}

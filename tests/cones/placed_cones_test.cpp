@@ -15,7 +15,7 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kQuarter = 0.5 * kPi, kMaxCone = 1.5 * kPi;
+constexpr double kMaxCone = 1.5 * kPi;
 
 Options cones(int count, double distortion = 0.0, ConeRounding rounding = ConeRounding::Free)
 {
@@ -42,7 +42,7 @@ FlatResult placed(const SurfaceMesh& mesh, const Options& options)
 		EXPECT_NE(K, 0.0);
 		EXPECT_FALSE(boundary[at(v)]);
 		if (options.cones.rounding == ConeRounding::QuarterTurns) {
-			EXPECT_NEAR(std::remainder(K, kQuarter), 0.0, 1e-12);
+			EXPECT_NEAR(std::remainder(K, kQuarterTurn), 0.0, 1e-12);
 		}
 		others[at(v)] = 0.0;
 	}
@@ -94,7 +94,7 @@ TEST(PlacedCones, AreTheCornersOfABox)
 				for (const int v : map.placedCones) {
 					const Point3& p = box.positions[at(v)];
 					EXPECT_TRUE((p[0] == 0 || p[0] == 1) && (p[1] == 0 || p[1] == 3));
-					EXPECT_NEAR(map.targetCurvature[at(v)], kQuarter, 1e-9);
+					EXPECT_NEAR(map.targetCurvature[at(v)], kQuarterTurn, 1e-9);
 				}
 			}
 }

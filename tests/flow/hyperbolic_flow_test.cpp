@@ -24,7 +24,7 @@ HyperbolicOptions options(HyperbolicTarget target, bool isFree = false)
 
 /// The map has the curvature asked for: by the flow's word, as it is drawn, and by
 /// Gauss-Bonnet, which knows the area; inside alone if the boundary is free.
-void expectReached(const SurfaceMesh& mesh, const FlatResult& map, bool isFree = false)
+void expectReachedInDisk(const SurfaceMesh& mesh, const FlatResult& map, bool isFree = false)
 {
 	const Report& report = map.report;
 	EXPECT_TRUE(report.converged);
@@ -48,7 +48,7 @@ FlatResult reached(const SurfaceMesh& mesh, const std::vector<double>& curvature
 	FlatResult map =
 		inUnitDisk(mesh, options(HyperbolicTarget::Prescribed), prescribing(curvature));
 	EXPECT_LT(largestDifference(map.targetCurvature, curvature), 1e-12);
-	expectReached(mesh, map);
+	expectReachedInDisk(mesh, map);
 	return map;
 }
 
@@ -62,7 +62,7 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 			  implicitClosed(genus, 5, 1)}) {
 			SCOPED_TRACE(mesh.positions.size());
 			const FlatResult map = inUnitDisk(mesh, options(HyperbolicTarget::HyperbolicMetric));
-			expectReached(mesh, map);
+			expectReachedInDisk(mesh, map);
 			EXPECT_EQ(map.targetCurvature, std::vector<double>(mesh.positions.size(), 0.0));
 			EXPECT_NEAR(*map.report.hyperbolicArea / (4 * kPi * (genus - 1)), 1.0, 1e-10);
 		}
@@ -136,14 +136,14 @@ TEST(HyperbolicFlow, BoundariesAreGeodesicOrKeepTheirCircles)
 			curvature[inside[inside.size() / 2]] = K;
 			HyperbolicOptions free = options(HyperbolicTarget::Prescribed, true);
 			const FlatResult map = inUnitDisk(mesh, free, prescribing(curvature));
-			expectReached(mesh, map, true);
+			expectReachedInDisk(mesh, map, true);
 			const int chi = map.report.eulerCharacteristic;
 			if (chi < 0 && K >= 0.0)
 				reached(mesh, curvature);
 			// On the mesh's own triangles the circles are those of the paper.
 			free.method = Method::FixedTriangles;
 			const FlatResult fixed = inUnitDisk(mesh, free, prescribing(curvature));
-			expectReached(mesh, fixed, true);
+			expectReachedInDisk(mesh, fixed, true);
 			const double scale = std::sqrt(2 * kPi * std::max(1, std::abs(chi)) / area);
 			for (std::size_t v = 0; v < boundary.size(); ++v)
 				if (boundary[v]) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A surface of genus 2 whose metric is known, with metrics of its conformal class: how fast the flow converges.
-#include "../measure/siegel_distance.h"
 #include "support/bolza.h"
 #include "support/flipped_flow.h"
 #include "support/run_flow.h"
 #include "support/shapes.h"
+#include "support/siegel_distance.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/hyperbolic/group_of_cut.h>

@@ -25,7 +25,7 @@ double errorOf(const ExtendedIsometry& m)
 }
 
 /// Translation along the straight line through 0 of this direction.
-ExtendedIsometry along(double direction, double length)
+ExtendedIsometry extendedAlong(double direction, double length)
 {
 	return ExtendedIsometry::rotation(direction) * ExtendedIsometry::translation(length) *
 		   ExtendedIsometry::rotation(-direction);
@@ -160,10 +160,10 @@ TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWord)
 TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)
 {
 	Array<ExtendedIsometry> g(2);
-	g[0] = along(0.0, 1.0);
+	g[0] = extendedAlong(0.0, 1.0);
 	for (const double length : {kMaxSearchedDistance - 3, kMaxSearchedDistance + 3}) {
 		// Across the first axis, so that no way to read the word leads to shorter ones.
-		g[1] = along(kPi / 2, length);
+		g[1] = extendedAlong(kPi / 2, length);
 		EXPECT_EQ(canonicalBases(canonicalWord(1), g).empty(), length > kMaxSearchedDistance);
 	}
 	g[1].b = std::numeric_limits<double>::quiet_NaN();
@@ -314,7 +314,7 @@ TEST(BestConditioned, TakesTheBestAndRefusesTheFar)
 	const double best = conditionOf(bestConditioned({longer, regular}, {}));
 	EXPECT_LE(best, conditionOf(regular));
 	EXPECT_TRUE(bestConditioned({}, {}).empty());
-	Handles far = {along(0.0, 1.0), along(kPi / 2, kMaxGeneratorDistance + 2)};
+	Handles far = {extendedAlong(0.0, 1.0), extendedAlong(kPi / 2, kMaxGeneratorDistance + 2)};
 	EXPECT_TRUE(bestConditioned({far}, {relationOf(far).inverse()}).empty());
 	far[0].b = std::numeric_limits<double>::quiet_NaN();
 	EXPECT_TRUE(bestConditioned({far}, {}).empty());

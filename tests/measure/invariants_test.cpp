@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "siegel_distance.h"
+#include "expect_period_matrix.h"
 #include "support/complex.h"
 #include "support/random.h"
+#include "support/siegel_distance.h"
 
 #include <ricci/measure/invariants.h>
 

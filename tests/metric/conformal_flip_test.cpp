@@ -13,8 +13,6 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 constexpr Vertex kI(0), kJ(1), kK(2), kL(3);
 
 /// Two triangles ijk and jil with these inversive distances, and the edge between them.
@@ -90,7 +88,9 @@ TEST(ConformalFlip, KeepsTheConformalClass)
 		// divides by delta (delta + 2) of that edge, which magnifies the error by 1 / delta.
 		quad.flip();
 		EXPECT_NEAR(
-			quad.delta[quad.e], before, 32 * kEpsilon * (1.0 + 1.0 / across) * (1.0 + before));
+			quad.delta[quad.e],
+			before,
+			32 * std::numeric_limits<double>::epsilon() * (1.0 + 1.0 / across) * (1.0 + before));
 	}
 	for (const double huge : {1e160, 1e300, HUGE_VAL, std::nan("")}) {
 		Quad quad;

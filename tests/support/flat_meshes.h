@@ -55,7 +55,7 @@ inline Parametrization mapWith(FlatMesh mesh)
 }
 
 /// measureDistortion() of the map of face f to \p plane[f].
-inline Distortion measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
+inline ricci::Distortion measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
 {
 	return measureDistortion(
 		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane));

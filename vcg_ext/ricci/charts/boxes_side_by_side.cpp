@@ -12,7 +12,7 @@ namespace {
 
 /// Widths of rows that are tried, each wider by this share of the first.
 constexpr int kWidths = 12;
-constexpr double kWider = 0.03;
+constexpr double kWiderRow = 0.03;
 
 double longestOf(const std::vector<Box2>& boxes)
 {
@@ -77,7 +77,7 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 	});
 	Shelves best = onShelves(boxes, order, root, gap);
 	for (int i = 1; i < kWidths; ++i)
-		if (Shelves next = onShelves(boxes, order, (1.0 + kWider * i) * root, gap);
+		if (Shelves next = onShelves(boxes, order, (1.0 + kWiderRow * i) * root, gap);
 			next.side < best.side)
 			best = std::move(next);
 	return best.shifts;

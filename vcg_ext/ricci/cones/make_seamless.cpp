@@ -24,8 +24,8 @@ namespace {
 
 /// Flows after the first one, and those in a row that may bring less than a share of what the
 /// holonomies cost.
-constexpr int kMaxRounds = 4, kMaxVainRounds = 2;
-constexpr double kMinGain = 0.1;
+constexpr int kMaxFlows = 4, kMaxVainRounds = 2;
+constexpr double kMinShare = 0.1;
 
 /// How far a cone may move at once, as a share of the square root of the area, and the factor by which
 /// that is less after a flow that has brought nothing.
@@ -367,7 +367,7 @@ int makeSeamless(
 		Holonomy other = holonomy(next);
 		const SeamlessCost cost = seamlessCost(surface, next, other);
 		const double gain = lowest.total() - cost.total();
-		const bool isEnough = gain >= kMinGain * lowest.angles;
+		const bool isEnough = gain >= kMinShare * lowest.angles;
 		if (gain > 0.0) {
 			flow = std::move(next);
 			present = std::move(other);
@@ -377,7 +377,7 @@ int makeSeamless(
 			radius *= kShorter; // the linear problem reaches no farther
 		return isEnough;
 	};
-	improve(kMaxRounds, kMaxVainRounds, propose, take);
+	improve(kMaxFlows, kMaxVainRounds, propose, take);
 	advance(0.0, "Rounding the rotations");
 	return roundHolonomy(flow, epsilon);
 }

@@ -15,7 +15,7 @@ namespace ricci {
 namespace {
 
 /// Rings of the patches, one size after another.
-constexpr int kRings[] = {1, 2, 3, 5};
+constexpr int kCoverRings[] = {1, 2, 3, 5};
 
 /// Ends of two sides are one point of the layout up to this share of the side.
 constexpr double kOnePoint = 1e-6;
@@ -65,7 +65,7 @@ public:
 		for (const int f : bad) {
 			checkpoint();
 			for (const bool atMiddle : {false, true})
-				for (const int rings : kRings)
+				for (const int rings : kCoverRings)
 					if (work > 0 && !m_rules.validity.isValid(m_flat.at(f)))
 						mend(f, rings, atMiddle, work, result.moved);
 		}

@@ -15,10 +15,10 @@ namespace ricci {
 namespace {
 
 /// Steps at most, and the share of what is above an isometry's energy that one must gain.
-constexpr int kMaxSteps = 40;
-constexpr double kMinGain = 1e-3;
+constexpr int kMaxStretchSteps = 40;
+constexpr double kMinStretchGain = 1e-3;
 
-constexpr double kMinStep = 1e-8;
+constexpr double kMinStretchStep = 1e-8;
 
 /// Gives the map the area of the surface.
 void scaleToSurface(FlatMesh& flat)
@@ -53,15 +53,16 @@ public:
 	{
 		Descent result{0, m_value, m_value};
 		double gain = m_value;
-		while (result.steps < kMaxSteps && gain > kMinGain * (m_value - MapCost().energy)) {
+		while (result.steps < kMaxStretchSteps &&
+			   gain > kMinStretchGain * (m_value - MapCost().energy)) {
 			gain = step();
 			if (!(gain > 0.0))
 				break;
 			++result.steps;
 			result.after = m_value;
 		}
-		result.endedEarly =
-			result.steps == kMaxSteps && gain > kMinGain * (m_value - MapCost().energy);
+		result.endedEarly = result.steps == kMaxStretchSteps &&
+							gain > kMinStretchGain * (m_value - MapCost().energy);
 		return result;
 	}
 
@@ -83,7 +84,7 @@ private:
 			return 0.0;
 		double value = m_value;
 		Eigen::VectorXd x;
-		const double length = LineSearch{kMinStep}.run(
+		const double length = LineSearch{kMinStretchStep}.run(
 			1.0,
 			m_step.dot(m_gradient),
 			m_value,

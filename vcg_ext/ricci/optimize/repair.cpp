@@ -31,7 +31,7 @@ constexpr int kMaxIdleRounds = 6;
 constexpr double kStress = 8.0;
 
 /// A round that leaves more than this share of the energy has gained nothing.
-constexpr double kMinGain = 0.99;
+constexpr double kNoGain = 0.99;
 
 /// A round whose least determinant stays below this share of the one before has hardly brought it nearer to 0.
 constexpr double kMaxLeft = 0.9;
@@ -90,7 +90,7 @@ public:
 				break;
 			}
 			least = m_energy.minDeterminant(m_x);
-			gained = value < kMinGain * first;
+			gained = value < kNoGain * first;
 			const std::size_t bad = m_invalid.size();
 			bool isIdle = false;
 			if (least > m_eps) { // all are the right way round, but some too low

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_TESTS_SIEGEL_DISTANCE_H
-#define RICCI_TESTS_SIEGEL_DISTANCE_H
+#include "siegel_distance.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <vector>
 
 namespace ricci::testing {
+namespace {
 
 /// All vectors x of integers but 0 with x^T \p gram x <= \p bound.
-inline std::vector<Eigen::VectorXd> shortVectors(const Eigen::MatrixXd& gram, double bound)
+std::vector<Eigen::VectorXd> shortVectors(const Eigen::MatrixXd& gram, double bound)
 {
 	const Eigen::MatrixXd upper = gram.llt().matrixU();
 	const Eigen::Index n = gram.rows();
@@ -43,7 +42,7 @@ inline std::vector<Eigen::VectorXd> shortVectors(const Eigen::MatrixXd& gram, do
 
 /// Energies of the real harmonic forms of a surface with this period matrix, in the basis of their
 /// periods along a1, ..., ag, b1, ..., bg: symmetric, positive definite and symplectic.
-inline Eigen::MatrixXd energyOf(const Eigen::MatrixXcd& omega)
+Eigen::MatrixXd energyOf(const Eigen::MatrixXcd& omega)
 {
 	// A form with the periods a and b is Re (c w) with w's periods 1 and X + iY, so that
 	// Im c = Y^-1 (X a - b), and its energy is Re c^T Y Re c + Im c^T Y Im c.
@@ -54,11 +53,9 @@ inline Eigen::MatrixXd energyOf(const Eigen::MatrixXcd& omega)
 	return energy;
 }
 
-/// The least distance of two period matrices in the Siegel upper half space, over all bases, that is over
-/// Sp(2g,Z): of the logarithms of the eigenvalues of one energy against the other the largest. Infinity where it
-/// is above \p radius. A search: an energy within the radius leaves few vectors of the lattice for each vector of
-/// the basis.
-inline double classDistance(const Eigen::MatrixXcd& one, const Eigen::MatrixXcd& two, double radius)
+} // namespace
+
+double classDistance(const Eigen::MatrixXcd& one, const Eigen::MatrixXcd& two, double radius)
 {
 	const Eigen::MatrixXd a = energyOf(one), b = energyOf(two);
 	const Eigen::Index n = a.rows(), g = n / 2;
@@ -103,22 +100,7 @@ inline double classDistance(const Eigen::MatrixXcd& one, const Eigen::MatrixXcd&
 	return best;
 }
 
-inline void expectPeriodMatrix(const Eigen::MatrixXcd& omega, Eigen::Index genus)
-{
-	ASSERT_EQ(omega.rows(), genus);
-	ASSERT_EQ(omega.cols(), genus);
-	EXPECT_LT((omega - omega.transpose()).cwiseAbs().maxCoeff(), 1e-12);
-	const Eigen::MatrixXd imaginary = omega.imag();
-	EXPECT_EQ(imaginary.llt().info(), Eigen::Success);
-}
-
-/// The period matrix of the regular polygon of 4 g or 4 g + 2 sides with opposite sides glued, of genus g: the curve
-/// y^2 = x^(2g+1) - x or y^2 = x^(2g+1) - 1. Let cj be the closed path from the centre across side j. The rotation by
-/// one side, by pi / m, takes cj to c(j+1) and dz to z^k dz e^(i pi (k + 1) / m), so that x^k dx / y for some powers
-/// of the rotation has the periods e^(i pi (2 k + 1) j / m) on cj, and the cj meet once each in the
-/// centre. From them, ai = c(2i) + s and bi = c(2i+1) + s with s = c0 - c1 + c2 - ... - c(2i-1) are
-/// canonical.
-inline Eigen::MatrixXcd omegaOfPolygon(int sides)
+Eigen::MatrixXcd omegaOfPolygon(int sides)
 {
 	const int m = sides / 2, genus = sides / 4;
 	Eigen::MatrixXcd a(genus, genus), b(genus, genus);
@@ -137,5 +119,3 @@ inline Eigen::MatrixXcd omegaOfPolygon(int sides)
 }
 
 } // namespace ricci::testing
-
-#endif
