@@ -10,6 +10,8 @@
 
 #include <ricci/parametrize.h>
 
+#include <Eigen/LU>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
