@@ -195,12 +195,12 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 	noteCount(map.report.flippedByRounding, tooSmall);
 }
 
-/// A disk or a rectangle, which must not be cut, is none where most of its faces are flipped or cover each other.
+/// A disk or a rectangle, which must not be cut, is none where a third of its faces are flipped or cover each other.
 /// \throw NotConverged LostInRounding
 void requirePicture(const Options& options, const Report& report, int faces)
 {
 	const int lost = report.flippedFaces + report.flippedByRounding + report.overlappingFaces;
-	if (!isOneChart(options) || !isFinished(options) || 2 * lost <= faces)
+	if (!isOneChart(options) || !isFinished(options) || 3 * lost <= faces)
 		return;
 	const auto [least, most] =
 		std::minmax_element(report.areaFactors.begin(), report.areaFactors.end());

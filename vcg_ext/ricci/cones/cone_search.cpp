@@ -166,8 +166,8 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	return !best.empty() && best.front() != old && move(model, i, best, present);
 }
 
-/// The sites around others, nearest first, with the lengths of the shortest ways there. Each is searched once: most
-/// cones stay where they are for several rounds.
+/// The sites around others where a cone may lie, nearest first, with the lengths of the shortest ways there. Each is
+/// searched once: most cones stay where they are for several rounds.
 class Surroundings
 {
 public:
@@ -185,7 +185,8 @@ public:
 		m_front.clear();
 		m_front.offer(site, 0.0);
 		for (Vertex v = m_front.next(m_far); v.isValid(); v = m_front.next(m_far)) {
-			known->second.push_back({v, m_front[v]});
+			if (m_sites.isAllowed(v))
+				known->second.push_back({v, m_front[v]});
 			for (const ConeSites::Way& way : m_sites.ways(v))
 				m_front.offer(way.to, m_front[v] + way.length, v);
 		}
@@ -205,7 +206,6 @@ private:
 bool moveNearby(
 	ConeModel& model,
 	const SeamTree& tree,
-	const ConeSites& sites,
 	Surroundings& around,
 	int i,
 	double own,
@@ -216,7 +216,7 @@ bool moveNearby(
 	const VertexVector& phi = model.gradient();
 	std::vector<std::pair<double, Vertex>> places; // change that is predicted
 	for (const auto& [v, r] : around.of(old)) {
-		if (model.isCone(v) || !sites.isAllowed(v))
+		if (model.isCone(v))
 			continue;
 		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
 		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
@@ -341,7 +341,7 @@ void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, d
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i) {
 			const double own = tree.remove(model.vertex(i));
-			hasMoved |= moveNearby(model, tree, sites, around, i, own, maxEnergy);
+			hasMoved |= moveNearby(model, tree, around, i, own, maxEnergy);
 			tree.add(model.vertex(i));
 		}
 		if (!hasMoved)

@@ -80,7 +80,7 @@ struct Loop
 	}
 };
 
-/// Those round holes, which run clockwise, are left out.
+/// Those round holes, which run clockwise, are left out, and those at which seams end.
 std::vector<Loop> outerLoops(const FlatMesh& flat)
 {
 	std::vector<Loop> loops;
@@ -88,14 +88,15 @@ std::vector<Loop> outerLoops(const FlatMesh& flat)
 	for (const Corner first : flat.across.indices()) {
 		Loop loop;
 		double area = 0.0;
+		bool hasSeam = false;
 		for (Corner side = first; !flat.across[side].isValid() && !seen[side];) {
 			seen[side] = 1;
 			loop.sides.push_back(side);
 			area += cross(flat.at(side) - flat.at(first), flat.at(side.next()) - flat.at(first));
-			for (side = side.next(); flat.across[side].isValid();)
-				side = flat.across[side].next();
+			for (side = side.next(); flat.across[side].isValid(); side = flat.across[side].next())
+				hasSeam = hasSeam || !flat.joined(side).isValid();
 		}
-		if (!(area > 0.0))
+		if (hasSeam || !(area > 0.0))
 			continue;
 		loop.findCircle(flat);
 		loops.push_back(std::move(loop));
