@@ -130,10 +130,10 @@ class Doubts(Told):
         self.assertIn("'Automatic'", lines[0])
 
     def test_overlap(self):
-        """A long spiral in a disk: floats cannot keep its ends apart, and a disk is not cut."""
+        """A long spiral in a rectangle: floats cannot keep its ends apart, and a rectangle is not cut."""
         spiral = meshes.grid(100, 3, lambda s, t: (
-            math.cos(20 * s) * (1 + s), math.sin(20 * s) * (1 + s), 3 * t + 8 * s))
-        returned, page = self.told(mesh_set(spiral), target_curvature="Disk")
+            math.cos(40 * s) * (1 + s), math.sin(40 * s) * (1 + s), 3 * t + 8 * s))
+        returned, page = self.told(mesh_set(spiral), target_curvature="Rectangle")
         self.assertGreater(returned["overlapping_faces"], 0)
         self.assertIn(f"usable: {returned['overlapping_faces']} faces overlap", page)
         self.assertFalse([line for line in self.doubtful(spiral) if "faces overlap" in line])
