@@ -999,6 +999,7 @@ class Faults(unittest.TestCase):
         libm.fedisableexcept(traps)
         return [left == traps, described(documents, returned)]
 
+    @unittest.skipIf(BY_ARRAYS, "PyMeshLab's own filter for attributes computes with memory that nobody has set")
     def test_host_that_traps_floating_point_exceptions(self):
         if platform.machine() != "x86_64":
             self.skipTest("the numbers of the traps are those of x86-64")
