@@ -307,7 +307,7 @@ TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
 		SurfaceMesh square = rectangle(n, n, n, n);
 		for (Point3& p : square.positions)
 			if (p[0] > 0 && p[0] < n && p[1] > 0 && p[1] < n)
-				for (const std::size_t k : {0, 1})
+				for (const std::size_t k : {0u, 1u})
 					p[k] += random.real(-0.3, 0.3);
 		Options options;
 		options.target = TargetCurvature::Disk;
