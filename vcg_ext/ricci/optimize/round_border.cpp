@@ -56,8 +56,10 @@ struct Loop
 			Complex found;
 			for (const Corner side : sides) {
 				const Complex p = asComplex(flat.at(side));
-				if (const double d = far(p); d > most)
-					most = d, found = p;
+				if (const double d = far(p); d > most) {
+					most = d;
+					found = p;
+				}
 			}
 			return found;
 		};
