@@ -15,8 +15,6 @@
 namespace ricci::testing {
 namespace {
 
-constexpr int kSide = 4;
-
 /// Units of rounding that the direction of an edge loses: the longest side of its triangles over it.
 double loss(const Triangulation& t, const EdgeArray<double>& lengths, Edge e)
 {
