@@ -41,9 +41,8 @@ declare -A share=([wheels]=480 [blender]=60 [windows]=300 [clang]=240 [long-doub
 not_run=77
 
 # The programs of the core that read no files of others.
-portable=(base_test numerics_test mesh_test metric_test cut_test layout_test measure_test solver_test
-	bridge_test)
-portable_all=(flow_test cones_test charts_test optimize_test hyperbolic_test
+portable=(base_test numerics_test mesh_test metric_test cut_test layout_test measure_test bridge_test)
+portable_all=(solver_test flow_test cones_test charts_test optimize_test hyperbolic_test
 	public_test)
 # The programs that meet hostile input.
 hostile=(numerics_test solver_test mesh_test cut_test charts_test layout_test public_test faults_test)
