@@ -344,8 +344,8 @@ private:
 
 	int m_cells, m_levels;
 	Rows m_taken; // [y, k] the x from which one of 2^k cells is taken
-	std::vector<std::array<Blocker, 2>>
-		m_blockers; // of the runs of a shape, those that block most first
+	/// Of the runs of a shape, those that block most first.
+	std::vector<std::array<Blocker, 2>> m_blockers;
 	int m_side = 0; // of the square that holds all
 	long long m_work = 0;
 };

@@ -78,9 +78,8 @@ private:
 		int number; ///< in the graph
 		int firstArc = -1;
 		int parentArc = -1; ///< none for roots, orphans and free nodes
-		int parent =
-			-1; ///< the node to which that leads: paths are long, and walked without their arcs
-		int distance = 0; ///< edges to the root, at the time of the mark
+		int parent = -1;    ///< where it leads: paths are long, and walked without arcs
+		int distance = 0;   ///< edges to the root, at the time of the mark
 		int mark = 0;
 		Tree tree = kNone;
 		bool isRoot = false;
