@@ -38,9 +38,6 @@ TEST(Parallel, WithoutMemoryForThreadsTheWorkIsDoneAllTheSame)
 TEST(Besides, WithoutMemoryForAThreadBothAreDoneAllTheSame)
 {
 	RICCI_NEEDS_FAILING_MALLOC();
-#ifdef _LIBCPP_VERSION
-	GTEST_SKIP() << "SKIPPED: std::async() of libc++ waits for a thread that it could not start";
-#endif
 	int main = 0, aside = 0;
 	const long tried = failEveryAllocation(
 		Failing::AllThatFollow,

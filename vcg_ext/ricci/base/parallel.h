@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <future>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -91,11 +92,24 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 				thrown = std::current_exception();
 		}
 	};
-	std::vector<std::future<void>> others;
+	std::mutex mutex; // for atWork
+	std::condition_variable isLess;
+	int atWork = 0;
+	const auto asHelper = [&] {
+		unlessEnded(help, ofHelp);
+		const std::lock_guard<std::mutex> lock(mutex);
+		--atWork;
+		isLess.notify_one();
+	};
+	// Not std::async(): that of libc++ waits for ever where a thread cannot be started.
+	std::vector<std::thread> others;
 	try {
 		others.reserve(static_cast<std::size_t>(std::max(helpers, 0)));
-		for (int i = 0; i < helpers; ++i)
-			others.push_back(std::async(std::launch::async, [&] { unlessEnded(help, ofHelp); }));
+		for (int i = 0; i < helpers; ++i) {
+			const std::lock_guard<std::mutex> lock(mutex);
+			others.emplace_back(asHelper);
+			++atWork;
+		}
 	}
 	catch (const std::system_error&) { // no more threads to be had
 	}
@@ -103,13 +117,17 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 	}
 	const auto runAndWait = [&] {
 		own();
-		for (const std::future<void>& other : others)
-			while (other.wait_for(kBetweenWaits) != std::future_status::ready)
+		std::unique_lock<std::mutex> lock(mutex);
+		while (atWork > 0)
+			if (isLess.wait_for(lock, kBetweenWaits) == std::cv_status::timeout) {
+				lock.unlock();
 				checkpoint();
+				lock.lock();
+			}
 	};
 	unlessEnded(runAndWait, ofOwn);
-	for (const std::future<void>& other : others)
-		other.wait();
+	for (std::thread& other : others)
+		other.join();
 	for (const std::exception_ptr& thrown : {ofOwn, ofHelp})
 		if (thrown)
 			std::rethrow_exception(thrown);
