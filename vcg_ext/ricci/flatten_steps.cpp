@@ -4,6 +4,7 @@
 #include "base/numbers.h"
 #include "base/tolerances.h"
 #include "measure/invariants.h"
+#include "metric/area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,16 @@ std::vector<double> curvatureOf(const FlatMesh& map, const VertexArray<char>& is
 		if (double& k = curvature[positionOf(v)]; !isBoundary[v] && std::abs(k) <= kConeCurvature)
 			k = 0.0;
 	return curvature;
+}
+
+/// Whether \p cut is longer than \p other by no more than mirrored seams may cost.
+bool isHardlyLonger(const EmbeddedSurface& surface, const CutGraph& cut, const CutGraph& other)
+{
+	double more = 0.0;
+	for (const Edge e : surface.lengths.indices())
+		more += (cut.isCut[e] - other.isCut[e]) * surface.lengths[e];
+	const double size = std::sqrt(vertexAreas(surface.triangulation, surface.lengths).sum());
+	return kSeamPrice * more <= kMirrorPrice * expectedEnergy(0.0) * size;
 }
 
 } // namespace
@@ -127,7 +138,11 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
-CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, VertexArray<char> cones)
+CutGraph cutDomain(
+	const FlowDomain& domain,
+	EdgeArray<double> cost,
+	VertexArray<char> cones,
+	const MirrorSymmetry* mirror)
 {
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;
@@ -136,6 +151,10 @@ CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, VertexArray
 		if (domain.isForeign[e])
 			cost[e] = kInfinity;
 	CutGraph cut = cutToDisk(t, cost, std::move(cones));
+	if (mirror)
+		if (auto mirrored = mirroredCut(t, *mirror, cost, cut.cones);
+			mirrored && isHardlyLonger(domain.surface, *mirrored, cut))
+			cut = *std::move(mirrored);
 	if (domain.holes > 0)
 		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cut);
 	return cut;

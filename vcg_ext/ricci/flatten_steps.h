@@ -52,7 +52,12 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons.
 /// \param cost [edge] of a seam
-CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, VertexArray<char> cones);
+/// \param mirror of the domain's surface, or null: the cut is mirrored where that is hardly longer
+CutGraph cutDomain(
+	const FlowDomain& domain,
+	EdgeArray<double> cost,
+	VertexArray<char> cones,
+	const MirrorSymmetry* mirror = nullptr);
 
 /// Whether the pieces of the overlay of a flow with flips are given back, not the triangles of the mesh.
 inline bool isRefined(const FlowOptions& options)

@@ -43,31 +43,35 @@ Holes holesOf(const Options& options)
 /// far, and where the map is to cost little.
 constexpr int kMaxRounds = 6, kMaxVainRounds = 2, kMaxCheaper = 2, kMaxVainCheaper = 1;
 
-/// What the target of a surface is chosen from, whose first vertices are the component's.
+/// What the target of a component is chosen from.
 TargetRequest targetRequest(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	const EmbeddedSurface& surface)
+	const FlowDomain& domain)
 {
 	TargetRequest request;
-	static_cast<TargetInput&>(request) = targetInput(component, input, surface.positions.size());
+	static_cast<TargetInput&>(request) =
+		targetInput(component, input, domain.solved().positions.size());
 	request.options = options;
 	request.measuresAreas =
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
+	if (options.method == Method::IntrinsicFlips && component.lengths.empty() && !component.hasSeam)
+		request.mirror = findMirror(domain.surface);
 	return request;
 }
 
-/// The cut through the cones of a target.
-CutGraph cutOpen(const FlowDomain& domain, VertexArray<char> cones, const Options& options)
+/// The cut through the cones of a target, mirrored where the surface is its own mirror image and that is hardly longer.
+CutGraph cutOpen(const FlowPlan& plan, VertexArray<char> cones, const Options& options)
 {
-	const EmbeddedSurface& surface = domain.surface;
+	const EmbeddedSurface& surface = plan.domain.surface;
 	return cutDomain(
-		domain,
+		plan.domain,
 		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
-		std::move(cones));
+		std::move(cones),
+		plan.request.mirror.get());
 }
 
 /// The flow with edge swaps (5.4), and the domain that it leaves.
@@ -313,7 +317,7 @@ FlowPlan startOfPlan(const Component& component, const VertexInput& input, const
 	logComponent(component, plan.domain.surface.topology.type);
 	if (options.method != Method::EdgeSwaps)
 		plan.start = initialPacking(plan.domain.solved(), options); // 4.1
-	plan.request = targetRequest(component, input, options, plan.domain.solved());
+	plan.request = targetRequest(component, input, options, plan.domain);
 	return plan;
 }
 
@@ -342,13 +346,13 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 				flow = runFlow(domain.solved(), std::move(plan.start), plan.target, options, log);
 			},
 			[&] { // 4.3
-				cut = cutOpen(domain, conesOf(domain.surface, plan.target, domain.onHole), options);
+				cut = cutOpen(plan, conesOf(domain.surface, plan.target, domain.onHole), options);
 			});
 	flow = keepAreas(domain.solved(), plan.request, options, std::move(flow), log);
 	flow = makeSeamless(domain.solved(), plan.request, options, std::move(flow), log);
 	logFlow(flow, options);
 	if (auto cones = conesOf(domain.surface, flow.target, domain.onHole); cones != cut.cones)
-		cut = cutOpen(domain, std::move(cones), options);
+		cut = cutOpen(plan, std::move(cones), options);
 
 	PlaneMap map;
 	InvariantReport periods;

@@ -129,6 +129,32 @@ Parametrization withOtherCones(
 	return map;
 }
 
+/// A map with mirrored cones and seams, or one without that wish if it costs less by all that they may cost.
+/// \param alternative what another map costs
+Parametrization mirroredOrNot(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	double alternative,
+	Parametrization map)
+{
+	auto other = attempt("the mirrored map stays", [&] {
+		FlowPlan plan = startOfPlan(component, input, options);
+		plan.request.mirror = nullptr;
+		completePlan(options, alternative, plan);
+		Parametrization plain = flattenToPlane(component, std::move(plan), options);
+		separateCharts(options, plain);
+		return plain;
+	});
+	if (!other)
+		return map;
+	const int steps = map.report.iterations + other->report.iterations;
+	if ((1.0 + 2.0 * kMirrorPrice) * costOf(*other).total() < costOf(map).total())
+		map = *std::move(other);
+	map.report.iterations = steps;
+	return map;
+}
+
 /// The plan with the holes capped where that is expected to cost less: a loop round which the surface is nearly flat needs
 /// no seams to it then.
 /// \param plan complete; its holes are those that are capped by their length
@@ -234,10 +260,15 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			return chosen(choice, *std::move(unfolded));
 		}
 	}
-	const double expected = plan.target.expected ? plan.target.expected->total() : kInfinity;
+	double expected = plan.target.expected ? plan.target.expected->total() : kInfinity;
+	const bool isMirrored = plan.request.mirror != nullptr;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
+	if (isMirrored && costOf(map).total() > expected + kBrokenPromise) {
+		map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
+		expected = kInfinity; // what other cones cost has been seen
+	}
 	unfoldIfPoor(costOf(map).total());
 	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
 	if (!unfolded)

@@ -7,6 +7,7 @@
 #include "../error.h"
 #include "area_change.h"
 #include "cone_search.h"
+#include "mirrored_cones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -206,23 +207,6 @@ void addForAreas(
 	}
 }
 
-/// Puts the cones of \p coarse, on aggregates with these \p roots, into \p model in place of its own.
-void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeModel& model)
-{
-	VertexArray<char> isWanted(model.area().size(), 0);
-	for (int i = 0; i < coarse.size(); ++i)
-		isWanted[roots[coarse.vertex(i)]] = 1;
-	for (int i = model.size() - 1; i >= 0; --i)
-		if (!isWanted[model.vertex(i)])
-			model.remove(i);
-	std::vector<Vertex> missing;
-	for (const Vertex v : isWanted.indices())
-		if (isWanted[v] && !model.isCone(v))
-			missing.push_back(v);
-	model.append(missing);
-	model.fit();
-}
-
 /// All of the search, from the cones that \p model has.
 void search(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
@@ -294,7 +278,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 	const double total = surface.topology.type.totalCurvature();
 	VertexArray<Vertex> roots;
 	LinearSystem whole = flow.system(roots);
-	std::optional<ConeSites> sites;
+	std::optional<ConeSites> sites, coarseSites;
 	std::optional<LinearFlow> coarse;
 	std::optional<ConeModel> found;
 	besides(
@@ -304,13 +288,13 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 			checkCount(request, minConeCount(flow, total), *sites);
 			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
 			found.emplace(*coarse, total);
-			search(request, *found, ConeSites(*sites, roots));
+			coarseSites.emplace(*sites, roots);
+			search(request, *found, *coarseSites);
 		},
 		[&] { flow.factorize(); });
 	ConeModel& model = *found;
-	std::vector<Vertex> vertices = model.vertices();
-	for (Vertex& v : vertices)
-		v = roots[v];
+	const std::vector<Vertex> vertices =
+		mirrorCones(request, *coarseSites, roots, surface.positions, model);
 	const auto spread = [&](const Eigen::VectorXd& k) {
 		return spreadOut(vertices, k, flow.vertexCount());
 	};
@@ -350,7 +334,9 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 	};
 	double seams = 0.0;
 	besides(defaultThreads(), fit, [&] { seams = SeamTree(*sites, vertices).length(); });
-	return result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)), seams);
+	PlacedCones placed = result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)), seams);
+	mirrorCurvatures(request, placed);
+	return placed;
 }
 
 /// The same for a number of cones or a distortion, and then on the surface itself as far as its own
@@ -368,7 +354,10 @@ void searchFromCoarse(
 	double excess = 0.0; // of the distortion on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
-		copyCones(coarseModel, roots, model);
+		std::vector<Vertex> cones = coarseModel.vertices();
+		for (Vertex& v : cones)
+			v = roots[v];
+		setCones(std::move(cones), model);
 		excess = model.distortion() / request.options.cones.distortion;
 		if (isCounted || excess <= 1.0)
 			break;
@@ -404,7 +393,10 @@ placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest
 		search(request, model, sites);
 	else
 		searchFromCoarse(request, flow, model, sites);
-	return result(model, sites);
+	mirrorCones(request, sites, {}, surface.positions, model);
+	PlacedCones placed = result(model, sites);
+	mirrorCurvatures(request, placed);
+	return placed;
 }
 
 PlacedCones

@@ -4,10 +4,12 @@
 
 #include "../base/numbers.h"
 #include "../flow/target.h"
+#include "../mesh/mirror.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
 #include "prescribed_target.h"
 
+#include <memory>
 #include <vector>
 
 namespace ricci {
@@ -24,6 +26,9 @@ struct TargetRequest : TargetInput
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.
 	VertexArray<int> vertexNumbers = {};
+
+	/// Placed cones are mirrored by it where that costs hardly more; null: no such wish. Its vertices are the first ones.
+	std::shared_ptr<const MirrorSymmetry> mirror = nullptr;
 
 	ConeGoal goal() const { return goalOf(options.cones); }
 	ConeBoundary boundary() const
@@ -45,6 +50,9 @@ struct PlacedCones
 	/// Length of the seams that are to be expected, and of those without cones, in units of the square
 	/// root of the area.
 	double seams = 0.0, seamsWithout = 0.0;
+
+	/// What a map with them is expected to cost.
+	MapCost expectation() const { return {expectedEnergy(distortion), seams}; }
 };
 
 /// Chooses cones so that the flow to them changes areas little.

@@ -174,11 +174,6 @@ void setPrescribedValues(
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
 }
 
-MapCost expectation(const PlacedCones& cones)
-{
-	return {expectedEnergy(cones.distortion), cones.seams};
-}
-
 /// "expected energy 4.09, seams 3.31 (in units of the square root of the area)"
 std::string describe(const MapCost& map)
 {
@@ -201,7 +196,7 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
 				number(curvature / kPi) + ")";
 	return std::to_string(cones.vertices.size()) +
-		   " cones placed: " + describe(expectation(cones)) + ", area distortion " +
+		   " cones placed: " + describe(cones.expectation()) + ", area distortion " +
 		   numberText(cones.distortion, 3) + " (spread); vertex (curvature / pi):" + list + ".";
 }
 
@@ -223,7 +218,7 @@ void setPlacedCones(
 	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
 	if (request.measuresAreas && request.goal() != ConeGoal::Count)
-		target.expected = expectation(cones);
+		target.expected = cones.expectation();
 	if (surface.topology.type.isClosed())
 		return;
 	if (request.options.freeBoundary)
@@ -285,7 +280,7 @@ void choosePlainOrCones(
 		cones.reset();
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
-	const double costWithout = plain.total(), cost = cones ? expectation(*cones).total() : 0.0;
+	const double costWithout = plain.total(), cost = cones ? cones->expectation().total() : 0.0;
 	if (cones && (goesBySpread || cost < costWithout)) {
 		// They may leave more to a short boundary than it can take.
 		std::optional<Target> admissible = attempt("no cones are placed", [&] {
@@ -317,7 +312,7 @@ void choosePlainOrCones(
 	target.notes.push_back(
 		"No cones: " + without +
 		(cones ? "; with " + std::to_string(cones->vertices.size()) + " cones " +
-					 describe(expectation(*cones))
+					 describe(cones->expectation())
 			   : "") +
 		".");
 	if (request.goal() != ConeGoal::Count)
@@ -417,7 +412,7 @@ std::optional<Target> targetToKeepAreas(
 								  ? placeCones(surface, start, request)
 								  : moreCones(surface, flow, request);
 	if (request.goal() == ConeGoal::LeastCost &&
-		expectation(cones).total() > areaCost(surface, flow, request) - kWorthAFlow)
+		cones.expectation().total() > areaCost(surface, flow, request) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = targetWithCones(surface, cones, request);

@@ -246,26 +246,33 @@ CutGraph
 cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones)
 {
 	const NodePaths paths = pathsAlongEdges(t, lengths, centreOf(t, lengths));
-	CutGraph cut;
-	cut.isCut = treeAround(t, paths.distance);
+	EdgeArray<char> isCut = treeAround(t, paths.distance);
 	for (const Edge e : t.edges())
-		cut.isCut[e] = !t.isBoundary(e) && !cut.isCut[e];
+		isCut[e] = !t.isBoundary(e) && !isCut[e];
 	const ContractedGraph graph(t, lengths);
-	prune(graph, graph.terminals(cones), cut.isCut);
-	measure(graph, cut);
-	cut.generators = generators(graph, cut);
-	cut.cones = std::move(cones);
-	return cut;
+	prune(graph, graph.terminals(cones), isCut);
+	return cutGraphOf(t, lengths, std::move(cones), std::move(isCut));
 }
 
 CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
 {
 	const ContractedGraph graph(t, cost);
 	const VertexArray<char> terminal = graph.terminals(cones);
+	EdgeArray<char> isCut = treeAndLoops(graph, terminal);
+	prune(graph, terminal, isCut);
+	shortenCut(t, cost, cones, isCut);
+	return cutGraphOf(t, cost, std::move(cones), std::move(isCut));
+}
+
+CutGraph cutGraphOf(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	VertexArray<char> cones,
+	EdgeArray<char> isCut)
+{
+	const ContractedGraph graph(t, cost);
 	CutGraph cut;
-	cut.isCut = treeAndLoops(graph, terminal);
-	prune(graph, terminal, cut.isCut);
-	shortenCut(t, cost, cones, cut.isCut);
+	cut.isCut = std::move(isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	cut.cones = std::move(cones);

@@ -5,8 +5,10 @@
 #define RICCI_CUT_GRAPH_H
 
 #include "../base/points.h"
+#include "../mesh/mirror.h"
 #include "../mesh/triangulation.h"
 
+#include <optional>
 #include <vector>
 
 namespace ricci {
@@ -39,6 +41,23 @@ struct CutGraph
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
 CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones);
+
+/// What a cut graph with these edges is.
+CutGraph cutGraphOf(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	VertexArray<char> cones,
+	EdgeArray<char> isCut);
+
+/// A short cut graph that \p mirror takes to itself: that of one half through the cones there, its image, and the edges in
+/// the plane but for one run of them, across which the halves stay together.
+/// \param cost of the edges; those without an image are not used
+/// \return none where \p mirror does not take the cones to cones, or no such cut leaves a disk
+std::optional<CutGraph> mirroredCut(
+	const Triangulation& t,
+	const MirrorSymmetry& mirror,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& cones);
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
 /// the triangles from one in the middle, of which every other is reached inside the disk, and all edges

@@ -26,6 +26,9 @@ constexpr double kSeamPrice = 0.05;
 /// more often, and are divided there by seams that no tree of cones foretells.
 constexpr double kConePrice = 0.001;
 
+/// Share of the objective of an isometry that mirrored cones may cost, and mirrored seams once more.
+constexpr double kMirrorPrice = 0.015;
+
 /// Of the mean square of u in the energy, see expectedEnergy().
 constexpr double kEnergyPrice = 8.0;
 
