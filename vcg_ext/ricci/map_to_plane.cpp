@@ -265,7 +265,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	if (isMirrored && costOf(map).total() > expected + kBrokenPromise) {
+	if (isMirrored && goalOf(options.cones) == ConeGoal::LeastCost &&
+		costOf(map).total() > expected + kBrokenPromise) {
 		map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
 		expected = kInfinity; // what other cones cost has been seen
 	}
