@@ -276,6 +276,47 @@ TEST(Copies, LookAlike)
 	EXPECT_EQ(static_cast<int>(turns.size()), single.report.charts);
 }
 
+/// A mirror image, whose triangles list their corners in any order, is drawn mirrored: its charts are turned, and not
+/// flipped.
+TEST(Copies, MirrorImagesAreMirrored)
+{
+	Random random(79);
+	const SurfaceMesh one = shaken(perforatedSlab(1, 3), 0.05, random);
+	for (const std::array<std::size_t, 3>& order :
+		 {std::array<std::size_t, 3>{2, 1, 0}, {0, 2, 1}, {1, 0, 2}})
+		for (const bool isRefined : {false, true}) {
+			SurfaceMesh image = turned(one, {0.3, 1.1, -0.7});
+			for (Point3& p : image.positions)
+				p[0] = -p[0];
+			for (Triangle& t : image.triangles)
+				t = {t[order[0]], t[order[1]], t[order[2]]};
+			const SurfaceMesh two = sideBySide(one, image, 20);
+			Options options;
+			options.normalizeUV = false;
+			if (isRefined)
+				options.output = OutputTriangulation::CommonRefinement;
+			const FlatResult single = run(one, options), both = run(two, options);
+			EXPECT_EQ(both.report.iterations, single.report.iterations);
+			EXPECT_EQ(both.report.charts, 2 * single.report.charts);
+			EXPECT_EQ(both.report.flippedFaces + both.report.overlappingFaces, 0);
+			EXPECT_EQ(both.report.seamEdges, 2 * single.report.seamEdges);
+			EXPECT_NEAR(both.report.qcMean, single.report.qcMean, 1e-9);
+			if (isRefined)
+				continue; // its pieces have no order
+			const auto sides = sidesOfHalves(both);
+			std::map<int, std::complex<double>> turns; // of charts
+			for (std::size_t i = 0; i < sides[0].size(); ++i) {
+				// The side between the same corners, which runs the other way.
+				const std::size_t face = i / 3, j = 3 * face + order[(i % 3 + 1) % 3];
+				const std::complex<double> turn = -sides[1][j] / std::conj(sides[0][i]);
+				const int chart = both.mesh.chart[static_cast<int>(face)];
+				EXPECT_NEAR(std::abs(turn), 1.0, 1e-4); // of floats in the square
+				EXPECT_NEAR(std::abs(turn - turns.emplace(chart, turn).first->second), 0.0, 1e-4);
+			}
+			EXPECT_EQ(static_cast<int>(turns.size()), single.report.charts);
+		}
+}
+
 /// What is selected on one alone is not copied; neither is another size.
 TEST(Copies, AreOnlyWhatIsEqual)
 {

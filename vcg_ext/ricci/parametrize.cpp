@@ -68,10 +68,11 @@ void checkFlowOptions(const FlowOptions& options)
 
 /// Maps every component.
 /// \param flatten flatten(component) to a Parametrization
+/// \param isInPlane see appendComponents()
 template<class Flatten>
-void mapComponents(const Flatten& flatten, WholeMap& whole)
+void mapComponents(const Flatten& flatten, bool isInPlane, WholeMap& whole)
 {
-	appendComponents(whole.opened, whole.values, whole.components, flatten, whole.map);
+	appendComponents(whole.opened, whole.values, whole.components, flatten, isInPlane, whole.map);
 	whole.map.report.converged = true;
 	advance(kComponentsDone, "Measuring the distortion");
 }
@@ -124,6 +125,7 @@ Parametrization mapBeside(
 		{},
 		components,
 		[&](const Component& component) { return mapToPlane(component, {}, inPlane); },
+		true,
 		leftOut);
 	packCharts(leftOut, inPlane, chartTurns(inPlane));
 	return leftOut;
@@ -164,7 +166,7 @@ WholeMap chartsInDisk(
 		const auto flatten = [&](const Component& component) {
 			return flattenToDisk(component, whole.values, options);
 		};
-		mapComponents(flatten, whole);
+		mapComponents(flatten, false, whole);
 		measureInDisk(whole);
 		advance(1.0, "Layout done");
 	}
@@ -327,7 +329,7 @@ WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const 
 	const auto flatten = [&](const Component& component) {
 		return mapToPlane(component, whole.values, options);
 	};
-	mapComponents(flatten, whole);
+	mapComponents(flatten, true, whole);
 	measureInPlane(whole);
 	advance(1.0, "Layout done");
 	return whole;

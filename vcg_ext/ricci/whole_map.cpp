@@ -71,15 +71,16 @@ public:
 		const VertexInput& values,
 		const std::vector<Component>& components,
 		const std::function<Parametrization(const Component&)>& flatten,
+		bool isInPlane,
 		Parametrization& whole) :
 			m_opened(opened),
 			m_components(components), m_flatten(flatten), m_whole(whole),
 			m_isSilent(silentComponents(components)),
-			m_original(originals(components, values.selected, values.targetCurvature)),
+			m_originals(originals(components, values.selected, values.targetCurvature, isInPlane)),
 			m_mapped(components.size()), m_firstFailed(static_cast<int>(components.size()))
 	{
 		for (std::size_t i = 0; i < components.size(); ++i) {
-			const int original = m_original[i];
+			const int original = m_originals[i].number;
 			++m_mapped[positionOf(original)].uses;
 			if (positionOf(original) != i)
 				continue;
@@ -154,8 +155,8 @@ private:
 	void appendDone()
 	{
 		for (; positionOf(m_appended) < m_mapped.size(); ++m_appended) {
-			const int original = m_original[positionOf(m_appended)];
-			Mapped& own = m_mapped[positionOf(original)];
+			const Original& original = m_originals[positionOf(m_appended)];
+			Mapped& own = m_mapped[positionOf(original.number)];
 			if (!own.isDone)
 				return;
 			logLines(own.lines);
@@ -164,17 +165,21 @@ private:
 				return;
 			if (m_isSilent[positionOf(m_appended)] != 0)
 				own.part->notes.clear();
-			const Component& component = m_components[positionOf(m_appended)];
-			if (--own.uses == 0) {
-				append(component, std::move(*own.part), m_whole);
+			const bool isLast = --own.uses == 0;
+			Parametrization part = isLast ? std::move(*own.part) : *own.part;
+			if (isLast)
 				own.part.reset();
-			}
 			else {
-				append(component, *own.part, m_whole);
 				own.part->report.iterations = 0; // the copies need none
 				own.part->report.flowStates.clear();
 				own.part->notes.clear();
 			}
+			if (original.mirrored)
+				mirror(original.order, part.charts.size(), part.mesh);
+			append(
+				original.mirrored ? *original.mirrored : m_components[positionOf(m_appended)],
+				std::move(part),
+				m_whole);
 		}
 	}
 
@@ -183,9 +188,9 @@ private:
 	const std::function<Parametrization(const Component&)>& m_flatten;
 	Parametrization& m_whole;
 	const std::vector<char> m_isSilent;
-	const std::vector<int> m_original; // [component]
-	std::vector<int> m_toMap;          // components that are copies of none
-	std::size_t m_faces = 0;           // of these
+	const std::vector<Original> m_originals; // [component]
+	std::vector<int> m_toMap;                // components that are copies of none
+	std::size_t m_faces = 0;                 // of these
 	const std::thread::id m_caller = std::this_thread::get_id();
 	std::vector<Mapped> m_mapped;
 	int m_appended = 0; // components
@@ -291,9 +296,10 @@ void appendComponents(
 	const VertexInput& values,
 	const std::vector<Component>& components,
 	const std::function<Parametrization(const Component&)>& flatten,
+	bool isInPlane,
 	Parametrization& whole)
 {
-	ComponentRuns(opened, values, components, flatten, whole).run();
+	ComponentRuns(opened, values, components, flatten, isInPlane, whole).run();
 	if (components.size() > kDescribedComponents)
 		logLine(
 			"The log leaves out the smaller ones of " + std::to_string(components.size()) +

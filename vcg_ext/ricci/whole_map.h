@@ -51,11 +51,13 @@ void nameComponent(const OpenedMesh& opened, const Component& component, Error& 
 /// of the components. Of several errors that of the first component is thrown; where there are several components, it
 /// gets the component's data.
 /// \param values of the vertices of \p opened: those of copies are equal
+/// \param isInPlane a mirror image is a copy, too, and its charts are mirrored
 void appendComponents(
 	const OpenedMesh& opened,
 	const VertexInput& values,
 	const std::vector<Component>& components,
 	const std::function<Parametrization(const Component&)>& flatten,
+	bool isInPlane,
 	Parametrization& whole);
 
 /// Takes out of \p components, where there are several, those on which no metric of curvature -1 has the target

@@ -188,6 +188,34 @@ Seams seams(const FlatMesh& mesh)
 	return sum;
 }
 
+void mirror(const CornerOrder& order, std::size_t chartCount, FlatMesh& mesh)
+{
+	const std::vector<Box2> boxes = mesh.boxes(chartCount);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : mesh.place.indices())
+		if (chart[p] >= 0) {
+			const Box2& box = boxes[positionOf(chart[p])];
+			mesh.place[p][0] = box.min[0] + box.max[0] - mesh.place[p][0];
+		}
+	const FlatMesh before = mesh;
+	const auto cornerAt = [&](Corner c) {
+		return Corner(c.face(), static_cast<int>(order[c.index()]));
+	};
+	// A side ends where it began.
+	const auto sideAt = [&](Corner side) { return cornerAt(side.next()); };
+	const auto placeOf = [&](Corner side) {
+		return side.isValid() ? cornerAt(side).previous() : side;
+	};
+	for (const Corner c : IndexRange<Corner>(3 * mesh.size())) {
+		mesh.vertices[c] = before.vertices[cornerAt(c)];
+		mesh.points[c] = before.points[cornerAt(c)];
+		mesh.lengths[c] = before.lengths[sideAt(c)];
+		mesh.across[c] = placeOf(before.across[sideAt(c)]);
+		if (!mesh.isDiagonal.empty())
+			mesh.isDiagonal[c] = before.isDiagonal[sideAt(c)];
+	}
+}
+
 void splitPoints(FlatMesh& mesh)
 {
 	numberPoints(

@@ -128,6 +128,10 @@ void numberPoints(const Place& place, const IsJoined& isJoined, FlatMesh& mesh)
 	mesh.place = std::move(places);
 }
 
+/// Turns all triangles over: a map of a mirror image. Each chart is mirrored in its box.
+/// \param order of their corners then
+void mirror(const CornerOrder& order, std::size_t chartCount, FlatMesh& mesh);
+
 /// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
 /// points that no corner has.
 void splitPoints(FlatMesh& mesh);

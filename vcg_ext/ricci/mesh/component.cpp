@@ -34,6 +34,17 @@ void reorder(const std::vector<Index>& order, std::vector<Item>& items)
 	items.swap(ordered);
 }
 
+void reorderFaces(const std::vector<Face>& order, Component& component)
+{
+	reorder(order, component.face.values());
+	reorder(order, component.reversed.values());
+	reorder(order, component.triangles);
+	reorder(order, component.lengths);
+	reorder(order, component.diagonal);
+	reorder(order, component.hole);
+	reorder(order, component.map);
+}
+
 /// Numbers the faces breadth first from the first one, and the vertices as these meet them: neighbours then
 /// lie near each other in memory, whatever the order of the input [Cuthill, McKee 1969].
 void numberBreadthFirst(Component& component)
@@ -63,13 +74,7 @@ void numberBreadthFirst(Component& component)
 		}
 	reorder(vertices, component.vertex.values());
 	reorder(vertices, component.positions.values());
-	reorder(faces, component.face.values());
-	reorder(faces, component.reversed.values());
-	reorder(faces, component.triangles);
-	reorder(faces, component.lengths);
-	reorder(faces, component.diagonal);
-	reorder(faces, component.hole);
-	reorder(faces, component.map);
+	reorderFaces(faces, component);
 }
 
 } // namespace
@@ -113,6 +118,32 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 	for (Component& component : components)
 		numberBreadthFirst(component);
 	return components;
+}
+
+Component turnedOver(Component component, const CornerOrder& order)
+{
+	const auto reorderCorners = [&](auto& ofTriangles) {
+		for (auto& t : ofTriangles)
+			t = {t[order[0]], t[order[1]], t[order[2]]};
+	};
+	const auto reorderSides = [&](auto& ofTriangles) {
+		for (auto& t : ofTriangles)
+			t = {t[order[1]], t[order[2]], t[order[0]]};
+	};
+	std::vector<Face> faces;
+	for (const Face f : component.face.indices())
+		faces.push_back(f);
+	std::sort(faces.begin(), faces.end(), [&](Face f, Face g) {
+		return component.face[f] < component.face[g];
+	});
+	reorderFaces(faces, component);
+	reorderCorners(component.triangles);
+	reorderCorners(component.map);
+	reorderSides(component.lengths);
+	reorderSides(component.diagonal);
+	reorderSides(component.hole);
+	numberBreadthFirst(component);
+	return component;
 }
 
 void requireAreaEverywhere(const std::vector<Component>& components)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace ricci {
@@ -43,13 +44,28 @@ struct Component
 /// minority of incoherent order turned. Each is numbered breadth first from its lowest face.
 std::vector<Component> splitIntoComponents(const OpenedMesh& opened);
 
+/// The surface from its other side: all triangles turned over, and numbered as splitIntoComponents() does.
+Component turnedOver(Component component, const CornerOrder& order);
+
+/// The component that another one is a copy of.
+struct Original
+{
+	int number = 0;
+	/// Where it is its mirror image: the copy turned over, in the numbers of the original, and how its corners are listed.
+	std::optional<Component> mirrored;
+	CornerOrder order{};
+};
+
 /// [component] The first one that it is a copy of, or itself: its sides are as long, triangle by triangle and but for
-/// rounding, it is the same by a rigid motion where there are positions, and its vertices have the same values.
+/// rounding, it is the same by a rigid motion where there are positions, or by one and a reflection, and its vertices have
+/// the same values.
 /// \param selected, targetCurvature [vertex of the opened mesh] or empty
-std::vector<int> originals(
+/// \param mayMirror whether mirror images count
+std::vector<Original> originals(
 	const std::vector<Component>& components,
 	const std::vector<char>& selected,
-	const std::vector<double>& targetCurvature);
+	const std::vector<double>& targetCurvature,
+	bool mayMirror);
 
 /// \throw InvalidMesh if edges have no length or faces no area, as rounding finds them
 void requireAreaEverywhere(const std::vector<Component>& components);

@@ -31,8 +31,8 @@ constexpr double kMaxNoise = 1e-4;
 constexpr std::size_t kMaxKinds = 100;
 
 /// Whether a rigid motion takes the vertices of one to those of the other: they are as far from four corners of a large
-/// tetrahedron, of the same orientation where it is not flat.
-bool isCongruent(const Component& a, const Component& b, double noise)
+/// tetrahedron, of the same orientation where it is not flat, or of the other one if the motion reflects.
+bool isCongruent(const Component& a, const Component& b, double noise, bool reflects)
 {
 	std::array<Vertex, 4> corner{Vertex(0), Vertex(0), Vertex(0), Vertex(0)};
 	const auto volume = [&](const Component& c, Vertex v) {
@@ -56,7 +56,7 @@ bool isCongruent(const Component& a, const Component& b, double noise)
 	corner[3] = farthest([&](Vertex v) { return std::abs(volume(a, v)); });
 	const double own = volume(a, corner[3]), other = volume(b, corner[3]);
 	const double size = distance(a.positions[corner[1]], a.positions[corner[0]]);
-	if (std::abs(own) > noise * size * size && (own > 0.0) != (other > 0.0))
+	if (std::abs(own) > noise * size * size && ((own > 0.0) == (other > 0.0)) == reflects)
 		return false;
 	for (const Vertex v : a.positions.indices())
 		for (const Vertex c : corner)
@@ -68,7 +68,8 @@ bool isCongruent(const Component& a, const Component& b, double noise)
 }
 
 /// \param noise of the lengths of both
-bool isCopy(const Component& a, const Component& b, double noise)
+/// \param reflects whether \p b is turned over
+bool isCopy(const Component& a, const Component& b, double noise, bool reflects)
 {
 	const auto hasSameSides = [&](Face f) {
 		const std::array<double, 3> own = a.sides(f), other = b.sides(f);
@@ -82,7 +83,7 @@ bool isCopy(const Component& a, const Component& b, double noise)
 	for (const Face f : a.face.indices())
 		if (!hasSameSides(f))
 			return false;
-	return !a.lengths.empty() || isCongruent(a, b, noise);
+	return !a.lengths.empty() || isCongruent(a, b, noise, reflects);
 }
 
 /// Whether two components, whose vertices are in one order, have the same \p values [vertex of the opened mesh].
@@ -100,30 +101,50 @@ bool hasSame(const std::vector<T>& values, const Component& a, const Component& 
 
 } // namespace
 
-std::vector<int> originals(
+std::vector<Original> originals(
 	const std::vector<Component>& components,
 	const std::vector<char>& selected,
-	const std::vector<double>& targetCurvature)
+	const std::vector<double>& targetCurvature,
+	bool mayMirror)
 {
-	std::vector<int> original;
+	std::vector<Original> originals;
 	std::vector<double> noise;
 	std::map<std::array<std::size_t, 2>, std::vector<int>> bySize;
 	for (const Component& component : components) {
-		const auto number = static_cast<int>(original.size());
+		Original original;
 		noise.push_back(lengthNoise(component));
 		std::vector<int>& others =
 			bySize[{component.triangles.size(), positionOf(component.vertex.size())}];
-		const auto found = std::find_if(others.begin(), others.end(), [&](int i) {
-			const Component& other = components[positionOf(i)];
-			return isCopy(other, component, noise[positionOf(i)] + noise.back()) &&
-				   hasSame(selected, other, component) &&
-				   hasSame(targetCurvature, other, component);
-		});
-		original.push_back(found == others.end() ? number : *found);
-		if (found == others.end() && others.size() < kMaxKinds)
-			others.push_back(number);
+		const auto find = [&](const Component& copy, bool reflects) {
+			const auto found = std::find_if(others.begin(), others.end(), [&](int i) {
+				const Component& other = components[positionOf(i)];
+				return isCopy(other, copy, noise[positionOf(i)] + noise.back(), reflects) &&
+					   hasSame(selected, other, copy) && hasSame(targetCurvature, other, copy);
+			});
+			if (found != others.end())
+				original.number = *found;
+			return found != others.end();
+		};
+		bool isFound = find(component, false);
+		// A reflection may list the corners of the triangles in any order.
+		for (const CornerOrder& order : {CornerOrder{2, 1, 0}, {0, 2, 1}, {1, 0, 2}}) {
+			if (isFound || !mayMirror || others.empty() || !component.map.empty())
+				break;
+			Component image = turnedOver(component, order);
+			isFound = find(image, true);
+			if (isFound) {
+				original.mirrored = std::move(image);
+				original.order = order;
+			}
+		}
+		if (!isFound) {
+			original.number = static_cast<int>(originals.size());
+			if (others.size() < kMaxKinds)
+				others.push_back(original.number);
+		}
+		originals.push_back(std::move(original));
 	}
-	return original;
+	return originals;
 }
 
 } // namespace ricci

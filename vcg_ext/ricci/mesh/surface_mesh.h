@@ -14,6 +14,9 @@ namespace ricci {
 /// Numbers of the three corners of a triangle.
 using Triangle = std::array<int, 3>;
 
+/// Another order of the corners of a triangle: [place] the corner there. One that turns the triangle over is its own inverse.
+using CornerOrder = std::array<std::size_t, 3>;
+
 /// [face][k] 1 where the side from corner k is marked. May be empty, else one entry for each triangle.
 using SideMarks = std::vector<std::array<char, 3>>;
 
