@@ -129,6 +129,16 @@ Parametrization withOtherCones(
 	return map;
 }
 
+/// Whether the cones that were placed mirror each other.
+bool isMirrored(const Parametrization& map, const MirrorSymmetry& mirror)
+{
+	const std::vector<int>& cones = map.placedCones;
+	return std::all_of(cones.begin(), cones.end(), [&](int v) {
+		return std::find(cones.begin(), cones.end(), mirror.image[Vertex(v)].number()) !=
+			   cones.end();
+	});
+}
+
 /// A map with mirrored cones and seams, or one without that wish if it costs less by all that they may cost.
 /// \param alternative what another map costs
 Parametrization mirroredOrNot(
@@ -261,14 +271,15 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		}
 	}
 	double expected = plan.target.expected ? plan.target.expected->total() : kInfinity;
-	const bool isMirrored = plan.request.mirror != nullptr;
+	const auto mirror = plan.request.mirror;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	if (isMirrored && goalOf(options.cones) == ConeGoal::LeastCost &&
-		costOf(map).total() > expected + kBrokenPromise) {
-		map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
-		expected = kInfinity; // what other cones cost has been seen
+	if (mirror && goalOf(options.cones) == ConeGoal::LeastCost && isMirrored(map, *mirror)) {
+		// No other map costs less than is expected.
+		if (costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected)
+			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
+		expected = kInfinity; // this promise has been looked at
 	}
 	unfoldIfPoor(costOf(map).total());
 	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
