@@ -5,18 +5,11 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
-#include "support/shapes.h"
 #include "support/transform.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <complex>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -5,19 +5,13 @@
 #include "support/flat_map.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/transform.h"
 
 #include <ricci/ricci.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

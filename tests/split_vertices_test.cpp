@@ -5,18 +5,13 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
-#include <ricci/parametrize.h>
-#include <ricci/sphere_map.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -8,7 +8,6 @@
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/dual_graph.h>
-#include <ricci/charts/separate_charts.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,6 @@
 #include "support/front_door.h"
 #include "support/random_surface.h"
 
-#include <ricci/parametrize.h>
-
 #include <gtest/gtest.h>
 
 namespace ricci::testing {

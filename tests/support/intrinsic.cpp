@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "intrinsic.h"
 
-#include "shapes.h"
-
 #include <algorithm>
 #include <ricci/mesh/flow_domain.h>
 

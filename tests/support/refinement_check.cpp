@@ -8,7 +8,6 @@
 #include <ricci/measure/distortion.h>
 #include <ricci/mesh/triangulation.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace ricci::testing {

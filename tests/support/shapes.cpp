@@ -2,7 +2,6 @@
 #include "shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

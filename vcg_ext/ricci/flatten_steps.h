@@ -9,7 +9,7 @@
 #include "cut/cut_graph.h"
 #include "flatten.h"
 #include "mesh/flow_domain.h"
-#include "refinement/common_refinement.h"
+#include "refinement/overlay_pieces.h"
 
 #include <string>
 #include <vector>

@@ -5,12 +5,10 @@
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
 #include "flatten.h"
-#include "flatten_steps.h"
 #include "measure/distortion.h"
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -189,7 +187,7 @@ void separateCharts(const Options& options, Parametrization& map)
 {
 	if (mayCutCharts(options))
 		separateCharts(
-			{options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options)}, map);
+			options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options), map);
 }
 
 Parametrization

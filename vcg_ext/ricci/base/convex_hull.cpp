@@ -2,12 +2,10 @@
 #include "convex_hull.h"
 
 #include "numbers.h"
-#include "points.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "finish_in_floats.h"
+#include "pack.h"
 
 #include "../base/numbers.h"
 #include "../base/task.h"
@@ -11,10 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -105,7 +103,7 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 
 } // namespace
 
-FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
+std::pair<int, bool> repairInFloats(const FloatRules& rules, Parametrization& map)
 {
 	const Box2 limits = boxOfCharts(map);
 	const std::vector<Validity> wanted = wantedOf(map.mesh, rules.keepsMesh);
@@ -123,18 +121,18 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 			[](int) { return false; },
 			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary, rules.slidesOnCircles},
 			limit));
-	FloatRepair done{result.movedCount()};
+	const int moved = result.movedCount();
 	if (!rules.mayGrow)
-		return done;
+		return {moved, false};
 	const bool cuts = result.left > 0 && rules.mayCut;
-	done.needsPacking = cuts || (done.moved > 0 && !isIn(map.mesh.box(), limits));
+	const bool needsPacking = cuts || (moved > 0 && !isIn(map.mesh.box(), limits));
 	if (cuts) {
 		const std::vector<int> lost = badTriangles(map.mesh, inFloats);
 		if (!rules.keepsMesh && lost.size() > kMostLost)
 			throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
 		setApart(lost, wanted.front(), map);
 	}
-	return done;
+	return {moved, needsPacking};
 }
 
 } // namespace ricci

@@ -2,7 +2,6 @@
 #include "chart_division.h"
 
 #include "../base/task.h"
-#include "dual_graph.h"
 #include "movable_parts.h"
 
 #include <algorithm>

@@ -13,19 +13,13 @@ namespace ricci {
 /// \p before.
 void countCuts(const Seams& before, Parametrization& map);
 
-/// How parts of a divided chart are placed.
-struct PartPlacing
-{
-	bool turns =
-		true; ///< their smallest bounding rectangles along the axes; else in the directions they have
-	bool reflects = true; ///< flipped triangles are cut off and reflected
-};
-
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
 /// parts of divideChart(), joined again by joinParts() across seams where they fit, each from the
 /// origin. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
 /// length.
-void separateCharts(const PartPlacing& placing, Parametrization& map);
+/// \param turns their smallest bounding rectangles along the axes; else they keep the directions they have
+/// \param reflects flipped triangles are cut off and reflected
+void separateCharts(bool turns, bool reflects, Parametrization& map);
 
 /// Joins charts across seams where they fit (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report

@@ -216,11 +216,6 @@ Matrix3 adjoint(const ExtendedIsometry& m)
 
 } // namespace
 
-ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>& generators)
-{
-	return productOf(word, 0, word.size(), generators);
-}
-
 std::vector<Handles>
 canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators)
 {

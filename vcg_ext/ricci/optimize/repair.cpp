@@ -4,7 +4,6 @@
 #include "../base/parallel.h"
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
-#include "round_border.h"
 
 #include <cmath>
 #include <limits>
