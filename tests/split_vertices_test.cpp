@@ -41,15 +41,6 @@ SurfaceMesh moved(SurfaceMesh mesh, const Point3& shift)
 	return mesh;
 }
 
-/// Coordinates as floats hold them.
-SurfaceMesh inFloats(SurfaceMesh mesh)
-{
-	for (Point3& p : mesh.positions)
-		for (double& x : p)
-			x = static_cast<double>(static_cast<float>(x));
-	return mesh;
-}
-
 /// A unit cube with 8 vertices.
 SurfaceMesh cube()
 {

@@ -3,7 +3,7 @@
 #include "support/shapes.h"
 
 #include <ricci/cones/seamless_metric.h>
-#include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/component.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "intrinsic.h"
 
 #include <algorithm>
-#include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/component.h>
 
 #include <array>
 #include <cmath>

@@ -55,6 +55,17 @@ SurfaceMesh rectangle(int nx, int ny, double width, double height)
 	});
 }
 
+SurfaceMesh bumpyPatch(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
+		return Point3{
+			x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
+			y * std::sqrt(1 - 0.5 * x * x),
+			0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
+	});
+}
+
 SurfaceMesh withFlatTail(SurfaceMesh mesh, int i, int j, double length)
 {
 	const int apex = static_cast<int>(mesh.positions.size()), middle = apex + 1;

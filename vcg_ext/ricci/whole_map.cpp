@@ -21,14 +21,6 @@ namespace ricci {
 
 namespace {
 
-std::size_t largestComponent(const std::vector<Component>& components)
-{
-	std::size_t largest = 0;
-	for (const Component& component : components)
-		largest = std::max(largest, component.triangles.size());
-	return largest;
-}
-
 /// Of more components than this, the log and the notes describe so many only, the largest.
 constexpr std::size_t kDescribedComponents = 20;
 
@@ -216,8 +208,11 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(whole.components);
+	std::size_t largest = 0;
+	for (const Component& component : whole.components)
+		largest = std::max(largest, component.triangles.size());
 	requireMemory(
-		largestComponent(whole.components),
+		largest,
 		opened.mesh.triangles.size(),
 		options.output == OutputTriangulation::CommonRefinement);
 	logLines(map.notes);

@@ -46,16 +46,6 @@ bool isIn(const Box2& box, const Box2& other)
 	return true;
 }
 
-/// Round the boxes of the charts.
-Box2 boxOfCharts(const Parametrization& map)
-{
-	Box2 box;
-	for (const Chart& chart : map.charts)
-		for (const Point2& corner : {chart.box.min, chart.box.max})
-			box.add(corner);
-	return box;
-}
-
 /// How many triangles of a patch cover a part of the plane together with another one.
 /// \param limits which no patch may leave, if there are any
 CostOfPatch overlapCount(const FlatMesh& map, double touching, const std::optional<Box2>& limits)
@@ -105,7 +95,10 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 
 std::pair<int, bool> repairInFloats(const FloatRules& rules, Parametrization& map)
 {
-	const Box2 limits = boxOfCharts(map);
+	Box2 limits;
+	for (const Chart& chart : map.charts)
+		for (const Point2& corner : {chart.box.min, chart.box.max})
+			limits.add(corner);
 	const std::vector<Validity> wanted = wantedOf(map.mesh, rules.keepsMesh);
 	const Validity& inFloats = wanted.back();
 	const CostOfPatch overlaps = overlapCount(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "chart_division.h"
+#include "separate_charts.h"
 
 #include "../base/task.h"
 #include "movable_parts.h"

@@ -6,9 +6,6 @@
 #include "../base/points.h"
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "chart_division.h"
-#include "chart_overlap.h"
-#include "dual_graph.h"
 
 #include <algorithm>
 #include <cmath>

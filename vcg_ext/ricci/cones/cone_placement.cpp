@@ -6,7 +6,7 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "area_change.h"
-#include "cone_search.h"
+#include "cone_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,15 +177,6 @@ void addForDistortion(const TargetRequest& request, ConeModel& model, const Cone
 	}
 }
 
-/// The same, with no more cones than it takes.
-void placeForDistortion(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
-{
-	addForDistortion(request, model, sites);
-	const double distortion = request.options.cones.distortion;
-	if (model.distortion() <= distortion && model.size() <= kMaxPlacedCones)
-		dropCones(model, sites, distortion);
-}
-
 /// Adds cones until areas are expected to be kept as is asked for.
 void addForAreas(
 	const EmbeddedSurface& surface,
@@ -232,8 +223,11 @@ void search(const TargetRequest& request, ConeModel& model, const ConeSites& sit
 		placeCount(wanted, model, sites);
 	else if (goal == ConeGoal::LeastCost)
 		placeForObjective(request, model, sites);
-	else
-		placeForDistortion(request, model, sites);
+	else {
+		addForDistortion(request, model, sites);
+		if (model.distortion() <= wanted.distortion && model.size() <= kMaxPlacedCones)
+			dropCones(model, sites, wanted.distortion);
+	}
 	if (wanted.rounding != ConeRounding::Free) {
 		model.setRounding(wanted.rounding); // also where no vertex was left for one more cone
 		relocateCones(model, sites);

@@ -5,7 +5,6 @@
 #define RICCI_RICCI_FLOW_H
 
 #include "../mesh/component.h"
-#include "../mesh/flow_domain.h"
 #include "../metric/circle_packing.h"
 #include "../options.h"
 #include "newton.h"

@@ -5,7 +5,6 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../charts/chart_division.h"
 #include "../charts/chart_overlap.h"
 #include "../charts/separate_charts.h"
 #include "../layout/hyperbolic_layout.h"

@@ -87,11 +87,11 @@ public:
 	/// What one stage may spend of it.
 	std::int64_t ofStage() const { return std::min(m_stage, m_left); }
 
-	/// \param work no more than is left
 	/// Steps on all triangles that a stage of a repair may spend where what it leaves can be cut off, or counted: few maps
 	/// that are not repaired by then are repaired by more.
 	static constexpr std::int64_t kFew = 50;
 
+	/// \param work no more than is left
 	void spend(std::int64_t work) { m_left -= work; }
 	std::int64_t left() const { return m_left; }
 

@@ -113,9 +113,8 @@ public:
 private:
 	double samples(const Point2& side) const
 	{
-		constexpr double kSlack = 0.05; // a little larger is not smaller
 		const double length = std::ldexp(std::hypot(side[0], side[1]), -m_level);
-		return std::max(std::ceil(length - kSlack), 1.0);
+		return std::max(std::ceil(length - 0.05), 1.0); // a little larger is not smaller
 	}
 
 	Point2 m_across, m_down; // its sides
