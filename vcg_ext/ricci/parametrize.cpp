@@ -226,8 +226,8 @@ void pack(const Options& options, WholeMap& whole)
 	FloatRules rules;
 	rules.keepsMesh = options.output == OutputTriangulation::KeepMesh;
 	rules.mayCut = mayCutCharts(options);
-	rules.keepsBoundary = isOneChart(options);
-	rules.slidesOnCircles = !rules.mayCut && (rules.keepsBoundary || !options.freeBoundary);
+	if (!rules.mayCut && (isOneChart(options) || !options.freeBoundary))
+		rules.boundary = BoundaryRepair::KeptOnCircles;
 	bool isChanged = false, isPacked = false;
 	for (int packings = 1; !isPacked; ++packings) {
 		rules.mayGrow = packings < kMaxPackings;

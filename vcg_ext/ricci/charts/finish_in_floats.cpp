@@ -5,7 +5,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../optimize/repair.h"
 #include "chart_overlap.h"
 #include "separate_charts.h"
 
@@ -112,7 +111,7 @@ std::pair<int, bool> repairInFloats(const FloatRules& rules, Parametrization& ma
 		result.add(repairInStages(
 			map.mesh,
 			[](int) { return false; },
-			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary, rules.slidesOnCircles},
+			{RestShapes::OfDrawing, validity, overlaps, rules.boundary},
 			limit));
 	const int moved = result.movedCount();
 	if (!rules.mayGrow)

@@ -5,6 +5,7 @@
 #define RICCI_PACK_H
 
 #include "../layout/parametrization.h"
+#include "../optimize/repair.h"
 #include "../options.h"
 
 #include <cstddef>
@@ -59,8 +60,8 @@ struct FloatRules
 	/// The triangles are the mesh's own, not pieces of a refinement: those of a map that fills the unit square which
 	/// six decimals would flip are mended, too, and all that are lost are cut off, however many.
 	bool keepsMesh = true;
-	bool mayCut = true;                                  ///< else no triangle is cut off
-	bool keepsBoundary = false, slidesOnCircles = false; ///< see RepairRules
+	bool mayCut = true; ///< else no triangle is cut off
+	BoundaryRepair boundary = BoundaryRepair::Free;
 	bool mayGrow = true; ///< whether charts may leave their boxes, and be packed again
 };
 

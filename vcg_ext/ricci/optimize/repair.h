@@ -16,16 +16,17 @@ namespace ricci {
 /// What a patch costs as it is in the map; called one after another.
 using CostOfPatch = std::function<double(const FlatMesh& flat, const Patch& patch)>;
 
+/// Where a repair may move the boundary. One that is kept is prescribed: it moves only if a triangle is flipped or
+/// flat, and where nothing may be cut off instead, circles of it stay circles.
+enum class BoundaryRepair { Free, Kept, KeptOnCircles };
+
 /// What a repair is after, and which patches it takes over.
 struct RepairRules
 {
 	RestShapes shapes;
 	Validity validity;
 	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
-	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
-	bool keepsBoundary = false;
-	/// It is prescribed, and nothing may be cut off instead: where it is a circle, it moves along that alone.
-	bool slidesOnCircles = false;
+	BoundaryRepair boundary = BoundaryRepair::Free;
 };
 
 /// A patch whose triangles are to be valid, and as near to the shapes of the rules as its border lets them be.
