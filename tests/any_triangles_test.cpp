@@ -2,18 +2,11 @@
 // Meshes that are not oriented manifolds, at the façade. Where a mesh is developable between its cuts,
 // its map is known: an isometry.
 #include "support/expect.h"
-#include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/written.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

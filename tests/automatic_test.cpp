@@ -4,18 +4,11 @@
 #include "support/flat_map.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/transform.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -19,9 +19,7 @@
 #include <functional>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -2,15 +2,10 @@
 // Seams that the caller chooses, at the façade. Where the surface is developable between its seams, its map is
 // known: an isometry.
 #include "support/expect.h"
-#include "support/shapes.h"
 #include "support/written.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_seams.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <set>

@@ -3,19 +3,16 @@
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

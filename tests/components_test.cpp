@@ -5,18 +5,11 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
-#include "support/shapes.h"
 #include "support/transform.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <complex>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -250,12 +243,6 @@ std::array<std::vector<std::complex<double>>, 2> sidesOfHalves(const FlatResult&
 TEST(Copies, LookAlike)
 {
 	Random random(77);
-	const auto inFloats = [](SurfaceMesh mesh) {
-		for (Point3& p : mesh.positions)
-			for (double& x : p)
-				x = static_cast<double>(static_cast<float>(x));
-		return mesh;
-	};
 	const SurfaceMesh one = inFloats(shaken(perforatedSlab(1, 3), 0.05, random));
 	const SurfaceMesh two = sideBySide(one, inFloats(turned(one, {0.3, 1.1, -0.7})), 20);
 	Options options;

@@ -13,9 +13,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <complex>
-#include <string>
 #include <vector>
 
 namespace ricci::testing {

@@ -2,21 +2,14 @@
 #include "support/expect.h"
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/vcg_mesh.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -13,9 +13,7 @@
 
 #include <cfenv>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
-#include <string>
 #include <vector>
 
 #ifdef __linux__

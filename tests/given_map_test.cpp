@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps that meshes have: Automatic keeps one that is right unless it finds a better one without further seams, and
 // Charts::AsGiven only packs.
-#include "support/random.h"
 #include "support/shapes.h"
 
 #include <ricci/error.h>
@@ -10,12 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <limits>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

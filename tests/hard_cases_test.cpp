@@ -8,16 +8,9 @@
 #include "support/random.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
-#include "support/shapes.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

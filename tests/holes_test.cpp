@@ -2,14 +2,9 @@
 #include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/random.h"
-#include "support/shapes.h"
-
-#include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <map>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results have the input's vertices and faces, whatever had to be cut open or left out.
 #include "support/bad_surfaces.h"
-#include "support/random_surface.h"
-#include "support/shapes.h"
 
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

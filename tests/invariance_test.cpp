@@ -18,9 +18,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
-#include <string>
 #include <thread>
-#include <vector>
 
 #ifdef __linux__
 #include <unistd.h>

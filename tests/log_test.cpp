@@ -14,8 +14,6 @@
 #include <cstdio>
 #include <functional>
 #include <regex>
-#include <string>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

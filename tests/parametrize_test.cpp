@@ -5,34 +5,16 @@
 #include "support/flat_map.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/transform.h"
 
 #include <ricci/ricci.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
-
-/// A bumpy patch with a round outline that is not centred on anything.
-SurfaceMesh bumpyPatch(int n)
-{
-	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
-		const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
-		return Point3{
-			x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
-			y * std::sqrt(1 - 0.5 * x * x),
-			0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
-	});
-}
 
 Box2 boxOf(const UV& uv)
 {

@@ -18,12 +18,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <variant>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -4,13 +4,8 @@
 #include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/mesh_file.h"
-#include "support/shapes.h"
-
-#include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <tuple>
 
 namespace ricci::testing {

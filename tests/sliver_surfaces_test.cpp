@@ -6,11 +6,6 @@
 #include "support/implicit_surface.h"
 #include "support/random.h"
 #include "support/refinement_check.h"
-#include "support/shapes.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
 
 namespace ricci::testing {
 namespace {

@@ -5,18 +5,13 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
-#include <ricci/parametrize.h>
-#include <ricci/sphere_map.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -43,15 +38,6 @@ SurfaceMesh moved(SurfaceMesh mesh, const Point3& shift)
 {
 	for (Point3& p : mesh.positions)
 		p += shift;
-	return mesh;
-}
-
-/// Coordinates as floats hold them.
-SurfaceMesh inFloats(SurfaceMesh mesh)
-{
-	for (Point3& p : mesh.positions)
-		for (double& x : p)
-			x = static_cast<double>(static_cast<float>(x));
 	return mesh;
 }
 

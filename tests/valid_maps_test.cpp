@@ -6,18 +6,14 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
 #include <set>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -3,10 +3,8 @@
 #include "../support/failing_malloc.h"
 #include "../support/shapes.h"
 
-#include <ricci/base/memory_estimate.h>
 #include <ricci/base/parallel.h>
-
-#include <gtest/gtest.h>
+#include <ricci/base/task.h>
 
 #include <algorithm>
 #include <vector>

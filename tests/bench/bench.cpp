@@ -16,7 +16,6 @@
 #include <ricci/flow/curvature_map.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/mesh/component.h>
-#include <ricci/mesh/flow_domain.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/geometry.h>
 #include <ricci/numerics/sparse_cholesky.h>

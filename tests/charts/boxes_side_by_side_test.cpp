@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/charts/boxes_side_by_side.h>
+#include <ricci/charts/pack_items.h>
 
 #include <gtest/gtest.h>
 

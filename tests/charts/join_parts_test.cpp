@@ -5,7 +5,6 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/dual_graph.h>
 #include <ricci/charts/separate_charts.h>

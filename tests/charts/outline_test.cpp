@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Outlines, their distances and places. packing_test.cpp has the texture coordinates that come of it.
-#include "support/expect.h"
 #include "support/flat_meshes.h"
 #include "support/listener.h"
 #include "support/random.h"

@@ -3,7 +3,7 @@
 #include "linearised.h"
 
 #include <ricci/base/graphs.h>
-#include <ricci/cones/cone_search.h>
+#include <ricci/cones/cone_model.h>
 #include <ricci/metric/area.h>
 
 #include <set>

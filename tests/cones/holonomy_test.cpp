@@ -2,9 +2,8 @@
 #include "support/intrinsic.h"
 #include "support/shapes.h"
 
-#include <ricci/base/numbers.h>
 #include <ricci/cones/seamless_metric.h>
-#include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/component.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/base/numbers.h>
 #include <ricci/cones/linear_flow.h>
 
 #include <Eigen/Core>

@@ -3,12 +3,8 @@
 #include "linearised.h"
 #include "support/expect.h"
 #include "support/front_door.h"
-#include "support/random_surface.h"
 
 #include <ricci/error.h>
-#include <ricci/parametrize.h>
-
-#include <gtest/gtest.h>
 
 #include <string>
 

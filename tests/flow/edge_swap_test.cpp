@@ -5,7 +5,6 @@
 #include "support/random_surface.h"
 
 #include <ricci/error.h>
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 

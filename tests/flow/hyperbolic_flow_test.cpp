@@ -4,8 +4,6 @@
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
 
-#include <ricci/parametrize.h>
-
 #include <gtest/gtest.h>
 
 #include <array>

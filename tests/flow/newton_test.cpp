@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/intrinsic.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -7,7 +6,6 @@
 
 #include <ricci/base/tolerances.h>
 #include <ricci/flow/newton.h>
-#include <ricci/mesh/flow_domain.h>
 
 #include <gtest/gtest.h>
 

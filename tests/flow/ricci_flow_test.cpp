@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flow to a flat metric with prescribed curvature, seen in the map.
-#include "support/expect.h"
 #include "support/flipped_flow.h"
 #include "support/front_door.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
-
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,6 @@
 #include "support/front_door.h"
 #include "support/random_surface.h"
 
-#include <ricci/parametrize.h>
-
 #include <gtest/gtest.h>
 
 namespace ricci::testing {
@@ -37,14 +35,8 @@ std::vector<SurfaceMesh> disks()
 		withoutStars(perforatedSlab(0, 6), {0}),
 		shaken(rectangle(6, 6, 1, 1), 0.08, random),
 		sphereWithTube(0.3, 1.0, 1.2, 12, 16)};
-	for (const int n : {8, 24}) // a bumpy patch with an outline that is not centred on anything
-		meshes.push_back(grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
-			const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
-			return Point3{
-				x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
-				y * std::sqrt(1 - 0.5 * x * x),
-				0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
-		}));
+	for (const int n : {8, 24})
+		meshes.push_back(bumpyPatch(n));
 	return meshes;
 }
 

@@ -3,12 +3,9 @@
 #include "support/bolza.h"
 #include "support/flipped_flow.h"
 #include "support/run_flow.h"
-#include "support/shapes.h"
 #include "support/siegel_distance.h"
 
-#include <ricci/base/numbers.h>
 #include <ricci/hyperbolic/group_of_cut.h>
-#include <ricci/hyperbolic/tiling.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/measure/invariants.h>
 #include <ricci/metric/geometry.h>

@@ -47,6 +47,14 @@ Array<ExtendedIsometry> randomIsometries(int count, double maxLength, Random& ra
 	return generators;
 }
 
+ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>& generators)
+{
+	ExtendedIsometry product;
+	for (const auto& [generator, isInverse] : word)
+		product = product * (isInverse ? generators[generator].inverse() : generators[generator]);
+	return product;
+}
+
 /// [a1,b1] ... [ag,bg].
 ExtendedIsometry relationOf(const Handles& handles)
 {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ricci/charts/pack.h>
 #include <ricci/hyperbolic/finish_disks.h>
 #include <ricci/measure/map_check.h>
 

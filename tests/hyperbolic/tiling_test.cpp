@@ -7,7 +7,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/hyperbolic/tiling.h>
+#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/parametrize.h>
 

@@ -4,12 +4,10 @@
 #include "support/closed_flows.h"
 #include "support/complex.h"
 #include "support/implicit_surface.h"
-#include "support/intrinsic.h"
 #include "support/refinement_check.h"
 
 #include <ricci/layout/corner_layout.h>
 #include <ricci/mesh/normal_coordinates.h>
-#include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>
 

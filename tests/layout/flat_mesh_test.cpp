@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/flat_meshes.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 
-#include <ricci/layout/flat_mesh.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/mesh/sides.h>
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/geometry.h>
-#include <ricci/refinement/common_refinement.h>
 
 #include <gtest/gtest.h>
 

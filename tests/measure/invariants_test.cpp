@@ -6,8 +6,6 @@
 
 #include <ricci/measure/invariants.h>
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 

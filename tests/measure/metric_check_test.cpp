@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/complex.h"
 #include "support/expect.h"
 #include "support/flipped_flow.h"
 #include "support/packed.h"

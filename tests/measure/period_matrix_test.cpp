@@ -12,8 +12,6 @@
 
 #include <Eigen/LU>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -6,7 +6,6 @@
 
 #include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
-#include <ricci/mesh/flow_domain.h>
 #include <ricci/mesh/sides.h>
 
 #include <gtest/gtest.h>

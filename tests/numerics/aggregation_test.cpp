@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/random_surface.h"
+#include "support/random.h"
 
 #include <ricci/numerics/aggregation.h>
 

@@ -2,9 +2,7 @@
 #include "flat_maps.h"
 #include "support/complex.h"
 #include "support/flipped_flow.h"
-#include "support/intrinsic.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 
 #include <ricci/measure/distortion.h>
 #include <ricci/numerics/iteration.h>
@@ -15,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_maps.h"
-#include "support/random_surface.h"
 
 #include <ricci/optimize/least_distortion.h>
 #include <ricci/optimize/patch_energy.h>

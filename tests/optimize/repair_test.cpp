@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the finish repairs.
 #include "flat_maps.h"
-#include "support/random.h"
-#include "support/shapes.h"
 
-#include <ricci/base/numbers.h>
-#include <ricci/base/points.h>
 #include <ricci/optimize/finish.h>
 #include <ricci/optimize/repair.h>
 
@@ -13,7 +9,6 @@
 
 #include <cmath>
 #include <complex>
-#include <cstdint>
 
 namespace ricci::testing {
 namespace {

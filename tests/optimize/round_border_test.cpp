@@ -3,14 +3,13 @@
 #include "../support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/optimize/round_border.h>
+#include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

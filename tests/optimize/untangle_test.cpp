@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rest shapes, and the energy that untangles.
 #include "flat_maps.h"
-#include "support/random.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/optimize/patch_energy.h>
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <vector>
 
 namespace ricci::testing {
 namespace {

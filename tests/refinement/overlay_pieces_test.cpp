@@ -2,6 +2,7 @@
 // The pieces of the overlay, and their triangles.
 #include "support/closed_flows.h"
 #include "support/random.h"
+#include "support/refinement_check.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
@@ -16,16 +17,6 @@
 
 namespace ricci::testing {
 namespace {
-
-/// Weight of a vertex of the input in a point; 0 where it has none.
-double weightOf(const SurfacePoint& p, Vertex v)
-{
-	double weight = 0.0;
-	for (std::size_t i = 0; i < 4; ++i)
-		if (Vertex(p.vertex[i]) == v)
-			weight += p.weight[i];
-	return weight;
-}
 
 /// Share of a triangle that a polygon with these affine coordinates covers, positive if it is
 /// counter-clockwise.

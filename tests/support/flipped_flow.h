@@ -8,11 +8,10 @@
 #include <ricci/cones/target_curvature.h>
 #include <ricci/cut/cut_graph.h>
 #include <ricci/flow/ricci_flow.h>
-#include <ricci/hyperbolic/hyperbolic_target.h>
-#include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/component.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/options.h>
-#include <ricci/refinement/common_refinement.h>
+#include <ricci/refinement/overlay_pieces.h>
 
 #include <vector>
 

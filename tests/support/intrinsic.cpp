@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "intrinsic.h"
 
-#include "shapes.h"
-
 #include <algorithm>
-#include <ricci/mesh/flow_domain.h>
+#include <ricci/mesh/component.h>
 
 #include <array>
 #include <cmath>

@@ -3,9 +3,6 @@
 // bits: the tests' references call these instead.
 #if defined(__linux__) && defined(__x86_64__) && __SIZEOF_LONG_DOUBLE__ == 8
 
-#include <cmath>
-#include <complex>
-
 #define RICCI_AS_DOUBLE(name)                                                                      \
 	long double name##l(long double x) noexcept                                                    \
 	{                                                                                              \

@@ -7,8 +7,6 @@
 #include "mesh_file.h"
 #include "vcg_mesh.h"
 
-#include <ricci/mesh/component.h>
-#include <ricci/refinement/common_refinement.h>
 #include <ricci/whole_map.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
@@ -19,9 +17,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace {
 

@@ -8,7 +8,6 @@
 #include <ricci/measure/distortion.h>
 #include <ricci/mesh/triangulation.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace ricci::testing {
@@ -49,16 +48,6 @@ double heightOf(const Triangle2& p)
 	return longest > 0.0 ? std::abs((std::conj(a) * b).imag()) / longest : 0.0;
 }
 
-/// Weight of vertex v in point p.
-double weightOf(const SurfacePoint& p, int v)
-{
-	double weight = 0.0;
-	for (std::size_t i = 0; i < 4; ++i)
-		if (p.vertex[i] == v)
-			weight += p.weight[i];
-	return weight;
-}
-
 /// Vertices of the input with a share in point p.
 std::vector<int> support(const SurfacePoint& p)
 {
@@ -94,7 +83,7 @@ RefinementCheck::RefinementCheck(
 			const SurfacePoint& p = map.source[point];
 			for (int v : support(p)) {
 				const bool inFace = std::find(face.begin(), face.end(), v) != face.end();
-				minWeight = std::min(minWeight, inFace ? weightOf(p, v) : -1.0);
+				minWeight = std::min(minWeight, inFace ? weightOf(p, Vertex(v)) : -1.0);
 			}
 		}
 		const Triangle2 p = map.at(f);

@@ -3,6 +3,7 @@
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
 #include <ricci/layout/flat_mesh.h>
+#include <ricci/mesh/elements.h>
 #include <ricci/mesh/surface_mesh.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,16 @@
 #include <vector>
 
 namespace ricci::testing {
+
+/// Weight of a vertex of the input in a point; 0 where it has none.
+inline double weightOf(const SurfacePoint& p, Vertex v)
+{
+	double weight = 0.0;
+	for (std::size_t i = 0; i < 4; ++i)
+		if (Vertex(p.vertex[i]) == v)
+			weight += p.weight[i];
+	return weight;
+}
 
 /// What can be seen of a refinement of a mesh in the plane without knowing how it was made. All faces of the
 /// mesh must be coherently oriented.

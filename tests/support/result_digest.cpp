@@ -14,8 +14,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace {
 

@@ -2,7 +2,6 @@
 #include "shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -53,6 +52,17 @@ SurfaceMesh rectangle(int nx, int ny, double width, double height)
 {
 	return grid(nx, ny, Ends::Open, Ends::Open, [&](int i, int j) {
 		return Point3{width * i / nx, height * j / ny, 0.0};
+	});
+}
+
+SurfaceMesh bumpyPatch(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
+		return Point3{
+			x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
+			y * std::sqrt(1 - 0.5 * x * x),
+			0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
 	});
 }
 

@@ -43,6 +43,9 @@ grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, i
 /// Flat rectangle, [0, width] x [0, height] at z = 0.
 SurfaceMesh rectangle(int nx, int ny, double width, double height);
 
+/// A bumpy patch with a round outline that is not centred on anything.
+SurfaceMesh bumpyPatch(int n);
+
 /// \p mesh and two faces: a triangle on the edge from \p i to \p j of its boundary, on its right, whose
 /// apex lies \p length along x from \p j, and one without area on the side from \p j to there.
 SurfaceMesh withFlatTail(SurfaceMesh mesh, int i, int j, double length);

@@ -16,6 +16,14 @@ SurfaceMesh scaled(SurfaceMesh mesh, double factor)
 	return mesh;
 }
 
+SurfaceMesh inFloats(SurfaceMesh mesh)
+{
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			x = static_cast<double>(static_cast<float>(x));
+	return mesh;
+}
+
 SurfaceMesh turned(SurfaceMesh mesh, const std::array<double, 3>& angles)
 {
 	for (Point3& p : mesh.positions)

@@ -13,6 +13,9 @@ namespace ricci::testing {
 
 SurfaceMesh scaled(SurfaceMesh mesh, double factor);
 
+/// Coordinates as floats hold them.
+SurfaceMesh inFloats(SurfaceMesh mesh);
+
 /// Turned by \p angles about x, then y, then z (radians).
 SurfaceMesh turned(SurfaceMesh mesh, const std::array<double, 3>& angles);
 

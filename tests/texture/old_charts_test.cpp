@@ -4,7 +4,6 @@
 #include "support/listener.h"
 
 #include <ricci/texture/old_charts.h>
-#include <ricci/texture/picture.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include "flow/ricci_flow.h"
 #include "layout/parametrization.h"
 #include "mesh/component.h"
-#include "mesh/flow_domain.h"
 #include "parametrize.h"
 
 #include <optional>

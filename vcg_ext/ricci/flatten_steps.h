@@ -8,8 +8,8 @@
 #include "cones/prescribed_target.h"
 #include "cut/cut_graph.h"
 #include "flatten.h"
-#include "mesh/flow_domain.h"
-#include "refinement/common_refinement.h"
+#include "mesh/component.h"
+#include "refinement/overlay_pieces.h"
 
 #include <string>
 #include <vector>

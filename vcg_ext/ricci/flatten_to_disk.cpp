@@ -8,9 +8,7 @@
 #include "cut/cut_graph.h"
 #include "flatten_steps.h"
 #include "hyperbolic/group_of_cut.h"
-#include "hyperbolic/hyperbolic_target.h"
 #include "measure/map_check.h"
-#include "mesh/flow_domain.h"
 
 #include <algorithm>
 #include <cmath>

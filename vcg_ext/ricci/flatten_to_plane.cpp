@@ -6,23 +6,19 @@
 #include "base/parallel.h"
 #include "base/task.h"
 #include "cones/area_change.h"
-#include "cones/make_seamless.h"
-#include "cones/target_curvature.h"
+#include "cones/seamless_metric.h"
 #include "cut/cut_graph.h"
 #include "flatten_steps.h"
-#include "flow/swapped_flow.h"
 #include "measure/distortion.h"
 #include "measure/invariants.h"
 #include "measure/map_check.h"
-#include "mesh/flow_domain.h"
 #include "optimize/finish.h"
-#include "optimize/round_border.h"
+#include "optimize/repair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace ricci {

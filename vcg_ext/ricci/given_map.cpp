@@ -44,10 +44,10 @@ Parametrization chartOf(const Component& component, bool turns, FlatMesh mesh)
 
 void scaleForLeastEnergy(FlatMesh& mesh)
 {
-	const StretchIntegrals sum = stretchIntegrals(mesh);
-	if (sum.forth > 0.0 && sum.back < kInfinity)
+	const auto [forth, back, area] = stretchIntegrals(mesh);
+	if (forth > 0.0 && back < kInfinity)
 		for (Point2& p : mesh.place)
-			p *= std::pow(sum.back / sum.forth, 0.25);
+			p *= std::pow(back / forth, 0.25);
 }
 
 Parametrization givenMap(const Component& component, bool turns)
@@ -68,7 +68,7 @@ std::optional<Parametrization> rightGivenMap(const Component& component)
 		for (Point2& p : mesh.place)
 			p[0] = -p[0];
 	const FlippedCount flipped = countFlipped(mesh);
-	if (flipped.faces + flipped.byRounding > 0 || overlapsInFloats(mesh).faces > 0)
+	if (flipped.faces + flipped.byRounding > 0 || overlapsInFloats(mesh)[0] > 0)
 		return std::nullopt;
 	Parametrization map = chartOf(component, true, std::move(mesh));
 	scaleForLeastEnergy(map.mesh);

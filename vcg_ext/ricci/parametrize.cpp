@@ -3,7 +3,6 @@
 
 #include "base/numbers.h"
 #include "base/task.h"
-#include "charts/finish_in_floats.h"
 #include "charts/pack.h"
 #include "flatten.h"
 #include "hyperbolic/finish_disks.h"
@@ -229,16 +228,16 @@ void pack(const Options& options, WholeMap& whole)
 	FloatRules rules;
 	rules.keepsMesh = options.output == OutputTriangulation::KeepMesh;
 	rules.mayCut = mayCutCharts(options);
-	rules.keepsBoundary = isOneChart(options);
-	rules.slidesOnCircles = !rules.mayCut && (rules.keepsBoundary || !options.freeBoundary);
-	FloatRepair repair;
-	bool isChanged = false;
-	for (int packings = 1; packings == 1 || repair.needsPacking; ++packings) {
+	if (!rules.mayCut && (isOneChart(options) || !options.freeBoundary))
+		rules.boundary = BoundaryRepair::KeptOnCircles;
+	bool isChanged = false, isPacked = false;
+	for (int packings = 1; !isPacked; ++packings) {
 		rules.mayGrow = packings < kMaxPackings;
-		repair = repairInFloats(rules, map);
-		map.report.finishMoved += repair.moved;
-		isChanged = isChanged || repair.moved > 0 || repair.needsPacking;
-		if (repair.needsPacking)
+		const auto [moved, needsPacking] = repairInFloats(rules, map);
+		map.report.finishMoved += moved;
+		isChanged = isChanged || moved > 0 || needsPacking;
+		isPacked = !needsPacking;
+		if (needsPacking)
 			packCharts(map, options, turns, cutsForTiles);
 	}
 	if (isChanged)
@@ -251,9 +250,9 @@ void countFaults(Parametrization& map)
 	const FlippedCount flipped = countFlipped(map.mesh);
 	map.report.flippedFaces = flipped.faces;
 	map.report.flippedByRounding = flipped.byRounding;
-	const OverlapsInFloats overlaps = overlapsInFloats(map.mesh);
-	map.report.overlappingFaces = overlaps.faces;
-	map.report.overlappingCharts = overlaps.charts;
+	const auto [faces, charts] = overlapsInFloats(map.mesh);
+	map.report.overlappingFaces = faces;
+	map.report.overlappingCharts = charts;
 }
 
 /// Adds the numbers of the whole map, then gives the result the input's indices.
@@ -355,17 +354,6 @@ Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 	options.finish = Finish::None;
 	options.join = JoinSplitVertices::Always; // a chart goes on where the map does not jump
 	return options;
-}
-
-/// Scales all charts by one factor to the area of the surface.
-void scaleToSurface(FlatMesh& mesh)
-{
-	double doubled = 0.0;
-	for (const Triangle2& t : mesh.corners())
-		doubled += std::abs(doubledArea(t));
-	if (doubled > 0.0)
-		for (Point2& p : mesh.place)
-			p *= std::sqrt(2.0 * mesh.area() / doubled);
 }
 
 Parametrization

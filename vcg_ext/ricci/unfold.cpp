@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
-#include "base/memory_estimate.h"
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "base/tolerances.h"
 #include "charts/separate_charts.h"
 #include "flatten_steps.h"
 #include "mesh/opened_mesh.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "whole_map.h"
 
-#include "base/memory_estimate.h"
 #include "base/parallel.h"
 #include "base/task.h"
+#include "cones/prescribed_target.h"
 #include "flatten_steps.h"
-#include "hyperbolic/hyperbolic_target.h"
 #include "mesh/triangulation.h"
 
 #include <algorithm>
@@ -21,14 +20,6 @@
 namespace ricci {
 
 namespace {
-
-std::size_t largestComponent(const std::vector<Component>& components)
-{
-	std::size_t largest = 0;
-	for (const Component& component : components)
-		largest = std::max(largest, component.triangles.size());
-	return largest;
-}
 
 /// Of more components than this, the log and the notes describe so many only, the largest.
 constexpr std::size_t kDescribedComponents = 20;
@@ -60,6 +51,15 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 {
 	for (std::size_t v = values.size(); !values.empty() && v < opened.vertex.size(); ++v)
 		values.push_back(values[positionOf(opened.vertex[v])]);
+}
+
+/// Gives an error the data of the component that it is of, where there are several.
+void nameComponent(const OpenedMesh& opened, const Component& component, Error& error)
+{
+	if (component.triangles.size() == opened.mesh.triangles.size())
+		return;
+	error.componentFace = opened.face[positionOf(component.face.front())];
+	error.componentFaces = component.triangles.size();
 }
 
 /// Maps components in threads. The thread that runs it appends them in their order, as soon as they are done.
@@ -213,8 +213,11 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(whole.components);
+	std::size_t largest = 0;
+	for (const Component& component : whole.components)
+		largest = std::max(largest, component.triangles.size());
 	requireMemory(
-		largestComponent(whole.components),
+		largest,
 		opened.mesh.triangles.size(),
 		options.output == OutputTriangulation::CommonRefinement);
 	logLines(map.notes);
@@ -275,20 +278,73 @@ void append(const Component& component, Parametrization part, Parametrization& w
 	whole.report += part.report;
 }
 
+Report& Report::operator+=(const Report& next)
+{
+	for (FlowState state : next.flowStates) {
+		state.component += components;
+		flowStates.push_back(state);
+	}
+	for (int Report::*count : std::initializer_list<int Report::*>{
+			 &Report::components,
+			 &Report::iterations,
+			 &Report::brokenTriangles,
+			 &Report::flips,
+			 &Report::finishMoved,
+			 &Report::endedEarly,
+			 &Report::edgeSwaps,
+			 &Report::boundarySplits,
+			 &Report::refinementPoints,
+			 &Report::eulerCharacteristic,
+			 &Report::genus,
+			 &Report::boundaryLoops,
+			 &Report::cappedHoles,
+			 &Report::cones,
+			 &Report::seamEdges,
+			 &Report::overlappingCharts,
+			 &Report::overlappingFaces,
+			 &Report::overlapCuts})
+		this->*count += next.*count;
+	seamLength += next.seamLength;
+	for (double Report::*error : std::initializer_list<double Report::*>{
+			 &Report::maxCurvatureError, &Report::residualFloor, &Report::lengthened})
+		this->*error = std::max(this->*error, next.*error);
+	if (next.hyperbolicArea)
+		hyperbolicArea = hyperbolicArea.value_or(0.0) + *next.hyperbolicArea;
+	const bool isOnly = components == next.components;
+	if (isOnly || targetUsed == next.targetUsed)
+		targetUsed = next.targetUsed;
+	else
+		targetUsed = TargetUsed::Several;
+	choice = isOnly || choice == next.choice ? next.choice : "";
+	for (std::optional<double> Report::*largest :
+		 std::initializer_list<std::optional<double> Report::*>{
+			 &Report::holonomyError,
+			 &Report::relationError,
+			 &Report::expectedSpread,
+			 &Report::boundaryRatioMax})
+		if (next.*largest)
+			this->*largest = std::max((this->*largest).value_or(0.0), *(next.*largest));
+	if (next.boundaryRatioMin)
+		boundaryRatioMin =
+			std::min(boundaryRatioMin.value_or(*next.boundaryRatioMin), *next.boundaryRatioMin);
+	for (std::optional<double> Report::*invariant :
+		 std::initializer_list<std::optional<double> Report::*>{
+			 &Report::torusTauRe,
+			 &Report::torusTauIm,
+			 &Report::annulusModulus,
+			 &Report::rectangleAspect,
+			 &Report::periodError})
+		this->*invariant = isOnly ? next.*invariant : std::nullopt;
+	periodMatrix = isOnly ? next.periodMatrix : std::vector<std::complex<double>>();
+	return *this;
+}
+
 std::size_t faceCount(const std::vector<Component>& components)
 {
 	std::size_t count = 0;
 	for (const Component& component : components)
 		count += component.triangles.size();
 	return count;
-}
-
-void nameComponent(const OpenedMesh& opened, const Component& component, Error& error)
-{
-	if (component.triangles.size() == opened.mesh.triangles.size())
-		return;
-	error.componentFace = opened.face[positionOf(component.face.front())];
-	error.componentFaces = component.triangles.size();
 }
 
 void appendComponents(

@@ -4,7 +4,6 @@
 #ifndef RICCI_WHOLE_MAP_H
 #define RICCI_WHOLE_MAP_H
 
-#include "error.h"
 #include "layout/parametrization.h"
 #include "mesh/component.h"
 #include "options.h"
@@ -42,9 +41,6 @@ void append(const Component& component, Parametrization part, Parametrization& w
 
 /// Of all of them together.
 std::size_t faceCount(const std::vector<Component>& components);
-
-/// Gives an error the data of the component that it is of, where there are several.
-void nameComponent(const OpenedMesh& opened, const Component& component, Error& error);
 
 /// Appends what \p flatten makes of each component, several of them at the same time in threads. A copy of an earlier
 /// one (originals()) gets the map of that one: it looks the same, and costs nothing. The log has their lines in the order

@@ -141,8 +141,7 @@ private:
 	{
 		const int index = m_nodes.size();
 		m_nodes.push_back({Box2(), first, last});
-		constexpr int kMaxLeaf = 4; // boxes
-		if (last - first <= kMaxLeaf) {
+		if (last - first <= 4) { // boxes of a leaf
 			for (int i = first; i < last; ++i) {
 				m_order.push_back(items[i].number);
 				m_boxes.push_back(boxes[positionOf(items[i].number)]);

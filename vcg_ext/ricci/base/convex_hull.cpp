@@ -2,12 +2,10 @@
 #include "convex_hull.h"
 
 #include "numbers.h"
-#include "points.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -218,7 +216,7 @@ OrientedRectangle minExtentRectangle(std::vector<Point2> points)
 	double step = 1.0 / steps;
 	for (int k = 1; k < steps; ++k)
 		look(k * step);
-	for (; step > 0.5 * kSquareAccuracy; step /= finer) {
+	for (; step > 0.5 * 1e-4; step /= finer) {
 		const double from = bestAt;
 		for (int k = 1 - finer; k < finer; ++k)
 			look(std::clamp(from + k * step / finer, 0.0, 1.0));

@@ -37,10 +37,8 @@ struct OrientedRectangle : Box2
 /// steps for n points.
 OrientedRectangle minAreaRectangle(std::vector<Point2> points);
 
-constexpr double kSquareAccuracy = 1e-4;
-
 /// Rectangle round \p points, at least one, whose longer side is minimal for small turns, to within
-/// kSquareAccuracy of it, and among all turns to within 0.4 %.
+/// 1e-4 of it, and among all turns to within 0.4 %.
 /// Its frame is turned by at most a right angle, and its cosine and sine are a rational point of the
 /// circle, so that they are the same on every machine.
 OrientedRectangle minExtentRectangle(std::vector<Point2> points);

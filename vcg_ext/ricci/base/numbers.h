@@ -5,6 +5,7 @@
 #include <cfenv>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace ricci {

@@ -21,10 +21,10 @@ namespace ricci {
 /// Threads that loops over elements use by default.
 inline int defaultThreads()
 {
-	constexpr unsigned kMaxThreads = 16; // memory is what these loops wait for
-	// Read once: the system opens a file to count its processors.
+	// No more than 16: memory is what these loops wait for. Read once: the system opens a file to count
+	// its processors.
 	static const int threads =
-		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMaxThreads));
+		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
 	return threads;
 }
 
@@ -32,8 +32,7 @@ inline int defaultThreads()
 /// the start of another would take longer than the tasks.
 inline int threadsFor(std::int64_t triangles)
 {
-	constexpr std::int64_t kWorthAThread = 1000;
-	return triangles < kWorthAThread ? 1 : defaultThreads();
+	return triangles < 1000 ? 1 : defaultThreads();
 }
 
 /// Calls work(first, last) for parts of [0, count), up to \p threads of them at

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace ricci {
 
@@ -192,6 +191,7 @@ struct Box2
 	Point2 centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2}; }
 	double width() const { return max[0] - min[0]; }
 	double height() const { return max[1] - min[1]; }
+	double area() const { return width() * height(); }
 	/// The longer side.
 	double extent() const { return std::max(width(), height()); }
 };

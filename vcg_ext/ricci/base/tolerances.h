@@ -91,9 +91,6 @@ constexpr double kSameAngle = 1e-6;
 /// triangles of those heights, in six decimals too. Sides shorter than kThinSide times the room get it.
 constexpr double kBoxRoom = 0x1p-16, kThinSide = 4.0;
 
-/// The pieces of a refinement may be as thin as a double shows.
-constexpr double kMinRefinedHeight = 0x1p-46;
-
 /// The sides of a seam have one length up to this, relatively, and one transition up to this in
 /// radians: what the curvature that the flow leaves makes of them. A seam vertex that is moved by a
 /// side's length opens the seam by this share of it at most.

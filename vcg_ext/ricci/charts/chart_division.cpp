@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "chart_division.h"
+#include "separate_charts.h"
 
 #include "../base/graphs.h"
 #include "../base/task.h"
@@ -33,7 +33,9 @@ public:
 				}
 			})
 	{
-		numberPieces();
+		// A flipped triangle that was reflected may have cut a piece off.
+		for (const std::vector<int>& piece : m_graph.connectedPieces())
+			renumber(piece);
 	}
 
 	Parts run()
@@ -122,14 +124,6 @@ private:
 				}
 		separate(ends);
 		separate(otherEnds);
-	}
-
-	/// Gives a number to each connected piece of the chart: a flipped triangle that was reflected may
-	/// have cut one off.
-	void numberPieces()
-	{
-		for (const std::vector<int>& piece : m_graph.connectedPieces())
-			renumber(piece);
 	}
 
 	/// Gives a new number to triangles.

@@ -339,11 +339,11 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 std::vector<TrianglePair> OverlapSearch::uncovered(const Array<int>& part) const
 {
 	std::vector<TrianglePair> pairs;
-	for (const HiddenPair& hidden : m_hidden) {
-		const int own = part[hidden.triangles[0]];
-		if (part[hidden.triangles[1]] == own &&
-			cover(hidden.common, [&](int i) { return part[i] == own; }) > 1)
-			pairs.push_back(hidden.triangles);
+	for (const auto& [pair, common] : m_hidden) {
+		const int own = part[pair[0]];
+		const auto isOwn = [&](int i) { return part[i] == own; };
+		if (isOwn(pair[1]) && cover(common, isOwn) > 1)
+			pairs.push_back(pair);
 	}
 	std::sort(pairs.begin(), pairs.end());
 	return pairs;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -92,12 +93,6 @@ private:
 	template<class IsCounted>
 	int cover(const Point2& p, const IsCounted& isCounted) const;
 
-	struct HiddenPair
-	{
-		TrianglePair triangles;
-		Point2 common; ///< a point of both
-	};
-
 	Array<Triangle2> m_plane;
 	Array<char> m_isProper; ///< [triangle] counter-clockwise
 	bool m_hasFolds = false;
@@ -107,7 +102,7 @@ private:
 	mutable std::int64_t m_steps = 0;
 	bool m_isComplete = true;
 	std::vector<TrianglePair> m_pairs;
-	std::vector<HiddenPair> m_hidden;
+	std::vector<std::pair<TrianglePair, Point2>> m_hidden; ///< with a point of both
 };
 
 } // namespace ricci

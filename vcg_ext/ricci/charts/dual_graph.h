@@ -110,7 +110,6 @@ public:
 	/// \pre the side is joined
 	std::int64_t weight(Corner side) const
 	{
-		constexpr double kUnits = 1e9;
 		if (!(m_longest > 0.0))
 			return 1;
 		double cost = m_chart.lengths[side] / m_longest;
@@ -118,7 +117,7 @@ public:
 			cost *= 0.5 * (price[side.face()] + price[joined(side).face()]);
 		if (!m_chart.isDiagonal.empty() && m_chart.isDiagonal[side])
 			cost *= kDiagonalFactor;
-		return static_cast<std::int64_t>(cost * kUnits) + 1;
+		return static_cast<std::int64_t>(cost * 1e9) + 1;
 	}
 
 	/// The connected pieces of all parts: the triangles of each, in increasing order.

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "finish_in_floats.h"
+#include "pack.h"
 
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../optimize/repair.h"
 #include "chart_overlap.h"
 #include "separate_charts.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -46,16 +43,6 @@ bool isIn(const Box2& box, const Box2& other)
 			roundedToFloat(box.max[k]) > roundedToFloat(other.max[k]))
 			return false;
 	return true;
-}
-
-/// Round the boxes of the charts.
-Box2 boxOfCharts(const Parametrization& map)
-{
-	Box2 box;
-	for (const Chart& chart : map.charts)
-		for (const Point2& corner : {chart.box.min, chart.box.max})
-			box.add(corner);
-	return box;
 }
 
 /// How many triangles of a patch cover a part of the plane together with another one.
@@ -105,9 +92,12 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 
 } // namespace
 
-FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
+std::pair<int, bool> repairInFloats(const FloatRules& rules, Parametrization& map)
 {
-	const Box2 limits = boxOfCharts(map);
+	Box2 limits;
+	for (const Chart& chart : map.charts)
+		for (const Point2& corner : {chart.box.min, chart.box.max})
+			limits.add(corner);
 	const std::vector<Validity> wanted = wantedOf(map.mesh, rules.keepsMesh);
 	const Validity& inFloats = wanted.back();
 	const CostOfPatch overlaps = overlapCount(
@@ -121,20 +111,20 @@ FloatRepair repairInFloats(const FloatRules& rules, Parametrization& map)
 		result.add(repairInStages(
 			map.mesh,
 			[](int) { return false; },
-			{RestShapes::OfDrawing, validity, overlaps, rules.keepsBoundary, rules.slidesOnCircles},
+			{RestShapes::OfDrawing, validity, overlaps, rules.boundary},
 			limit));
-	FloatRepair done{result.movedCount()};
+	const int moved = result.movedCount();
 	if (!rules.mayGrow)
-		return done;
+		return {moved, false};
 	const bool cuts = result.left > 0 && rules.mayCut;
-	done.needsPacking = cuts || (done.moved > 0 && !isIn(map.mesh.box(), limits));
+	const bool needsPacking = cuts || (moved > 0 && !isIn(map.mesh.box(), limits));
 	if (cuts) {
 		const std::vector<int> lost = badTriangles(map.mesh, inFloats);
 		if (!rules.keepsMesh && lost.size() > kMostLost)
 			throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
 		setApart(lost, wanted.front(), map);
 	}
-	return done;
+	return {moved, needsPacking};
 }
 
 } // namespace ricci

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "chart_division.h"
+#include "separate_charts.h"
 
 #include "../base/task.h"
-#include "dual_graph.h"
 #include "movable_parts.h"
 
 #include <algorithm>

@@ -6,8 +6,6 @@
 #include "../base/task.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <utility>
 
 namespace ricci {

@@ -5,12 +5,9 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "boxes_side_by_side.h"
 #include "outline_cells.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -60,7 +57,7 @@ Order orderOf(const std::vector<Outline>& outlines, double side)
 		Box2 box;
 		for (const auto& ends : outline)
 			box.add(ends[0]);
-		areas.push_back(roundedShare(areaOf(outline) + box.width() * box.height(), side * side));
+		areas.push_back(roundedShare(areaOf(outline) + box.area(), side * side));
 	}
 	Order order(outlines.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
@@ -292,7 +289,7 @@ std::vector<Motion> packOutlines(
 	return best;
 }
 
-std::vector<TilePlace> packIntoTiles(
+std::vector<std::pair<int, Motion>> packIntoTiles(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,
@@ -312,7 +309,7 @@ std::vector<TilePlace> packIntoTiles(
 			const std::size_t i = positionOf(number);
 			shapes[i] = shapesOf(outlines[i], turns[i], rules, true);
 		});
-	std::vector<TilePlace> places(outlines.size());
+	std::vector<std::pair<int, Motion>> places(outlines.size());
 	Order left = orderOf(outlines, side);
 	Canvas canvas(rules.cells);
 	for (int tile = 0; !left.empty(); ++tile) {
@@ -322,15 +319,14 @@ std::vector<TilePlace> packIntoTiles(
 		for (const std::size_t i : left) {
 			if (shapes[i].empty())
 				return {};
-			TilePlace& place = places[i];
 			// An outline that covers itself may have a larger area than the square.
 			const bool isFirst = room == 1.0;
 			if ((areas[i] > room && !isFirst) ||
-				placer.put(shapes[i], rules.cells + 1, place.motion) == 0) {
+				placer.put(shapes[i], rules.cells + 1, places[i].second) == 0) {
 				next.push_back(i);
 				continue;
 			}
-			place.tile = tile;
+			places[i].first = tile;
 			room -= areas[i];
 		}
 		left = std::move(next);

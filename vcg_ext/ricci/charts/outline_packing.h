@@ -7,11 +7,20 @@
 #include "../options.h"
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace ricci {
+
+/// A length or an area as a share of \p whole, without the digits in which equal ones may differ: for orders that
+/// are the same on every machine.
+inline double roundedShare(double x, double whole)
+{
+	return std::round(1e9 * x / whole);
+}
 
 /// The border of a chart: straight sides from one point to the next, the chart on the left of each.
 using Outline = std::vector<std::array<Point2, 2>>;
@@ -51,21 +60,14 @@ std::vector<Motion> packOutlines(
 /// How many of so many outlines lie in one of the squares that their areas need.
 std::size_t outlinesPerSquare(std::size_t outlines, double squares);
 
-/// Where an outline lies in packIntoTiles().
-struct TilePlace
-{
-	int tile = -1;
-	Motion motion; ///< into the square from the origin
-};
-
 /// Packs outlines into squares of one side, as many as they take, by cells that they touch, the largest first. Each goes
 /// into the first square in which there is room for it, where the square that holds all so far is smallest. The same
 /// outlines always get the same places.
 /// \param outlines not empty, none without sides
 /// \param turns [outline]
 /// \param padding least distance of two outlines
-/// \return [outline]; empty where one fits into no square
-std::vector<TilePlace> packIntoTiles(
+/// \return [outline] its square, and its motion into the one at the origin; empty where one fits into no square
+std::vector<std::pair<int, Motion>> packIntoTiles(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,

@@ -2,11 +2,9 @@
 #include "pack.h"
 
 #include "../base/convex_hull.h"
-#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "boxes_side_by_side.h"
 #include "pack_items.h"
 #include "separate_charts.h"
 
@@ -42,16 +40,6 @@ void clampToUnitSquare(Parametrization& map)
 		for (Point2* p : {&chart.box.min, &chart.box.max})
 			for (double& x : *p)
 				x = std::min(std::max(x, 0.0), 1.0);
-}
-
-double coveredArea(const FlatMesh& mesh)
-{
-	double doubled = 0.0;
-	for (const int f : mesh.points.indices()) {
-		const Triangle2 t = mesh.at(f);
-		doubled += std::abs(doubledArea(t));
-	}
-	return 0.5 * doubled;
 }
 
 /// Charts in a square: their motions, the box round them and the padding between it and the square.
@@ -124,8 +112,8 @@ Packing packByOutlines(const ChartsToPack& charts, const PackSquare& square)
 			}
 	if (!keepApart(items.outlines, (1.0 - kMarginSpare) * square.padding))
 		return {};
-	for (std::size_t i = 0; i < items.of.size(); ++i)
-		packing.motions.push_back(items.motionOf(i, motions[items.of[i].item]));
+	for (std::size_t i = 0; i < items.itemOf.size(); ++i)
+		packing.motions.push_back(items.motionOf(i, motions[items.itemOf[i]]));
 	return packing;
 }
 
@@ -185,13 +173,7 @@ void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns
 	if (turns == ChartTurns::Free && options.turns != ChartTurns::None)
 		isUpright = turnUpright(triangles, map.mesh);
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
-	// The square that holds all has this side at least.
-	double area = 0.0, extent = 0.0;
-	for (const Box2& box : boxes) {
-		area += box.width() * box.height();
-		extent = std::max(extent, box.extent());
-	}
-	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
+	const std::vector<char> isThin = widen(triangles, leastSquare(boxes), boxes);
 	const PlaceBoxes placeBoxes = checkedPlaces(options);
 	double margin = options.chartMargin;
 	Packing packing = packBoxes(boxes, margin, placeBoxes);
@@ -219,7 +201,7 @@ void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns
 		motion = {scale * motion.turn, scale * (motion.shift - corner)};
 	place(packing.motions, boxes, map);
 	clampToUnitSquare(map);
-	map.report.occupancy = coveredArea(map.mesh);
+	map.report.occupancy = map.mesh.planeArea();
 }
 
 /// packCharts() into the unit square, with cuts.
@@ -294,7 +276,7 @@ public:
 			m_options(options), m_turns(turns), m_mayTurn(std::min(turns, options.turns)),
 			m_map(map)
 	{
-		const double area = map.mesh.area(), covered = coveredArea(map.mesh);
+		const double area = map.mesh.area(), covered = map.mesh.planeArea();
 		if (area > kMaxTiles * options.tileSide * options.tileSide)
 			refuse(std::sqrt(area / (kLeastFilled * kMaxTiles)));
 		if (options.tileSide > kLargest * std::sqrt(area))
@@ -336,28 +318,27 @@ public:
 			{m_map.mesh, m_triangles, m_boxes, m_isThin, m_isUpright, m_mayTurn},
 			{side,
 			 m_padding,
-			 outlinesPerSquare(m_boxes.size(), coveredArea(m_map.mesh)),
+			 outlinesPerSquare(m_boxes.size(), m_map.mesh.planeArea()),
 			 kLongestBox,
 			 placeBoxes});
-		const std::vector<TilePlace> places =
-			packIntoTiles(items.outlines, items.turns, side, m_padding);
+		const auto places = packIntoTiles(items.outlines, items.turns, side, m_padding);
 		if (places.empty())
 			throw InternalError("A chart does not fit into a tile");
 		std::vector<Motion> motions;
 		m_map.report.tiles = 1;
 		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
-			const TilePlace& at = places[items.of[i].item];
-			motions.push_back(items.motionOf(i, at.motion));
-			const int column = at.tile % kTilesInRow, row = at.tile / kTilesInRow;
+			const auto& [tile, motion] = places[items.itemOf[i]];
+			motions.push_back(items.motionOf(i, motion));
+			const int column = tile % kTilesInRow, row = tile / kTilesInRow;
 			motions.back().shift +=
 				std::complex<double>(0.5 * m_padding + column, 0.5 * m_padding + row);
-			m_map.report.tiles = std::max(m_map.report.tiles, at.tile + 1);
+			m_map.report.tiles = std::max(m_map.report.tiles, tile + 1);
 		}
 		if (m_map.report.tiles > kMaxTiles)
 			refuse(m_options.tileSide * std::sqrt(kMore * m_map.report.tiles / kMaxTiles));
 		place(motions, m_boxes, m_map);
 		m_map.report.margin = m_options.chartMargin;
-		m_map.report.occupancy = coveredArea(m_map.mesh) / m_map.report.tiles;
+		m_map.report.occupancy = m_map.mesh.planeArea() / m_map.report.tiles;
 	}
 
 private:
@@ -444,7 +425,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		return;
 	}
 	const Array<Point2> before = map.mesh.place;
-	const double area = coveredArea(map.mesh);
+	const double area = map.mesh.planeArea();
 	if (mayCut)
 		packWithCuts(map, options, turns);
 	else
@@ -455,7 +436,7 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		map.mesh.place = before;
 		packIntoSquare(map, options, ChartTurns::None);
 	}
-	const double covered = coveredArea(map.mesh),
+	const double covered = map.mesh.planeArea(),
 				 scale = covered > 0.0 ? std::sqrt(area / covered) : 1.0;
 	scaleBy(scale, map);
 	requireFloats(map.mesh.place);
@@ -477,7 +458,7 @@ void placeDisks(Parametrization& map)
 	}
 	moveCharts(motions, map.mesh);
 	clampToUnitSquare(map);
-	map.report.occupancy = coveredArea(map.mesh);
+	map.report.occupancy = map.mesh.planeArea();
 }
 
 } // namespace ricci

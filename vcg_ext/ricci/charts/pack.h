@@ -5,10 +5,11 @@
 #define RICCI_PACK_H
 
 #include "../layout/parametrization.h"
+#include "../optimize/repair.h"
 #include "../options.h"
 
 #include <cstddef>
-#include <vector>
+#include <utility>
 
 namespace ricci {
 
@@ -52,6 +53,27 @@ constexpr int kMaxCuts = 24;
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
 void placeDisks(Parametrization& map);
+
+/// What repairInFloats() may do.
+struct FloatRules
+{
+	/// The triangles are the mesh's own, not pieces of a refinement: those of a map that fills the unit square which
+	/// six decimals would flip are mended, too, and all that are lost are cut off, however many.
+	bool keepsMesh = true;
+	bool mayCut = true; ///< else no triangle is cut off
+	BoundaryRepair boundary = BoundaryRepair::Free;
+	bool mayGrow = true; ///< whether charts may leave their boxes, and be packed again
+};
+
+/// The last look at a packed map, at the coordinates as they will be stored: mends the triangles that are
+/// flipped or flat once the coordinates are rounded to float, or lower than a few steps of a float. Points near
+/// them move by a few steps, and no others. Seams stay isometric, and nothing is made to overlap. A triangle that
+/// cannot be mended so is cut off as a chart of its own, as high as floats need.
+/// \param map after packCharts()
+/// \return how many points have moved, and whether charts have left their boxes, or triangles have become charts, so
+/// that all have to be packed again
+/// \throw NotConverged PiecesLost where that would be too many pieces of a refinement
+std::pair<int, bool> repairInFloats(const FloatRules& rules, Parametrization& map);
 
 } // namespace ricci
 

@@ -4,7 +4,6 @@
 #include "../base/convex_hull.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
-#include "boxes_side_by_side.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,13 +69,73 @@ void addBox(
 		addBox({middle, small.end()}, boxes, square, items);
 		return;
 	}
-	for (std::size_t k = 0; k < small.size(); ++k)
-		items.of[small[k]] = {items.outlines.size(), shift[k]};
+	for (std::size_t k = 0; k < small.size(); ++k) {
+		items.itemOf[small[k]] = items.outlines.size();
+		items.shiftOf[small[k]] = shift[k];
+	}
 	items.outlines.push_back(borderOf(all));
 	items.turns.push_back(ChartTurns::Quarter); // their boxes stay upright
 }
 
+/// Widths of rows that are tried, each wider by this share of the first.
+constexpr int kWidths = 12;
+constexpr double kWiderRow = 0.03;
+
+/// In rows of some width: places, and the side of the square that holds them. A gap keeps the rounded sums, and floats
+/// of them, apart.
+std::pair<double, std::vector<Point2>> onShelves(
+	const std::vector<Box2>& boxes, const std::vector<std::size_t>& order, double width, double gap)
+{
+	double side = 0.0, x = 0.0, floor = 0.0, height = 0.0;
+	std::vector<Point2> shifts(boxes.size());
+	for (const std::size_t i : order) {
+		if (x + boxes[i].width() > width) {
+			x = 0.0;
+			floor += height + gap;
+			height = 0.0;
+		}
+		shifts[i] = {x - boxes[i].min[0], floor - boxes[i].min[1]};
+		x += boxes[i].width() + gap;
+		height = std::max(height, boxes[i].height());
+		side = std::max({side, x, floor + height});
+	}
+	return {side, std::move(shifts)};
+}
+
 } // namespace
+
+double leastSquare(const std::vector<Box2>& boxes)
+{
+	double longest = 0.0, area = 0.0;
+	for (const Box2& box : boxes) {
+		longest = std::max(longest, box.extent());
+		area += box.area();
+	}
+	return std::max(longest, std::sqrt(area));
+}
+
+std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
+{
+	if (boxes.size() <= 1)
+		return std::vector<Point2>(boxes.size(), Point2{0.0, 0.0});
+	for (Box2& box : boxes)
+		for (std::size_t k = 0; k < 2; ++k) {
+			box.min[k] -= 0.5 * padding;
+			box.max[k] += 0.5 * padding;
+		}
+	const double root = leastSquare(boxes), gap = 1e-6 * root;
+	std::vector<std::size_t> order(boxes.size()); // the highest first
+	std::iota(order.begin(), order.end(), std::size_t{0});
+	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return roundedShare(boxes[a].height(), root) > roundedShare(boxes[b].height(), root);
+	});
+	auto best = onShelves(boxes, order, root, gap);
+	for (int i = 1; i < kWidths; ++i)
+		if (auto next = onShelves(boxes, order, (1.0 + kWiderRow * i) * root, gap);
+			next.first < best.first)
+			best = std::move(next);
+	return best.second;
+}
 
 void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
 {
@@ -124,7 +183,7 @@ PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
 	const std::vector<Box2>& boxes = charts.boxes;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
-	const auto area = [&](std::size_t i) { return boxes[i].width() * boxes[i].height(); };
+	const auto area = [&](std::size_t i) { return boxes[i].area(); };
 	const double whole = square.side * square.side;
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
 		return roundedShare(area(a), whole) > roundedShare(area(b), whole);
@@ -140,7 +199,8 @@ PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
 	}
 	PackItems items;
 	items.isMostlySmall = large.empty() || areaOfLarge < areaOfSmall;
-	items.of.resize(boxes.size());
+	items.itemOf.resize(boxes.size());
+	items.shiftOf.resize(boxes.size(), {0.0, 0.0});
 	items.outlines.resize(large.size());
 	tasksInParallel(
 		static_cast<int>(large.size()), threadsFor(charts.mesh.size() / 32), [&](int k) {
@@ -151,7 +211,7 @@ PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
 				outline = borderOf(boxes[i]);
 		});
 	for (const std::size_t i : large) {
-		items.of[i].item = items.turns.size();
+		items.itemOf[i] = items.turns.size();
 		items.turns.push_back(
 			charts.isUpright[i] ? std::min(charts.turns, ChartTurns::Quarter) : charts.turns);
 	}

@@ -14,6 +14,14 @@
 
 namespace ricci {
 
+/// Side that a square needs at least to hold boxes.
+double leastSquare(const std::vector<Box2>& boxes);
+
+/// [box] Translations, never turns or scalings, that bring boxes along the axes close together in about a square and
+/// leave at least \p padding >= 0 between any two. One box stays where it is. The boxes are not empty; they may have
+/// no width or no height.
+std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding);
+
 /// Moves every point p of chart i to motions[i](p).
 void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh);
 
@@ -53,22 +61,16 @@ struct PackSquare
 
 struct PackItems
 {
-	/// What a chart is in, and its shift before the item is moved.
-	struct Part
-	{
-		std::size_t item = 0;
-		Point2 shift{0.0, 0.0};
-	};
-
-	std::vector<Outline> outlines; ///< [item]
-	std::vector<ChartTurns> turns; ///< [item]
-	std::vector<Part> of;          ///< [chart]
-	bool isMostlySmall = false;    ///< boxes of small charts have more than half of the area of all
+	std::vector<Outline> outlines;   ///< [item]
+	std::vector<ChartTurns> turns;   ///< [item]
+	std::vector<std::size_t> itemOf; ///< [chart] what it is in
+	std::vector<Point2> shiftOf;     ///< [chart] before the item is moved
+	bool isMostlySmall = false; ///< boxes of small charts have more than half of the area of all
 
 	/// Of chart \p i, where its item is moved by \p motion.
 	Motion motionOf(std::size_t i, const Motion& motion) const
 	{
-		return {motion.turn, asComplex(motion(of[i].shift))};
+		return {motion.turn, asComplex(motion(shiftOf[i]))};
 	}
 };
 

@@ -6,9 +6,6 @@
 #include "../base/points.h"
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "chart_division.h"
-#include "chart_overlap.h"
-#include "dual_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +49,7 @@ void setApart(Parametrization& map)
 	const std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	double area = 0.0, width = 0.0;
 	for (const Box2& box : boxes) {
-		area += box.width() * box.height();
+		area += box.area();
 		width = std::max(width, box.width());
 	}
 	width = std::max(width, std::sqrt(area));
@@ -236,7 +233,7 @@ void countCuts(const Seams& before, Parametrization& map)
 	map.report.seamLength += after.length - before.length;
 }
 
-void separateCharts(const PartPlacing& placing, Parametrization& map)
+void separateCharts(bool turns, bool reflects, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided; // numbers of the parts
@@ -251,7 +248,7 @@ void separateCharts(const PartPlacing& placing, Parametrization& map)
 		const std::vector<int>& triangles = byChart[c];
 		checkpoint();
 		FlatMesh chart = map.mesh.part(triangles);
-		const bool isReflected = placing.reflects && reflectFlipped(chart);
+		const bool isReflected = reflects && reflectFlipped(chart);
 		const OverlapSearch overlaps(chart);
 		checkpoint();
 		if (!isReflected && overlaps.pairs().empty()) {
@@ -280,7 +277,7 @@ void separateCharts(const PartPlacing& placing, Parametrization& map)
 	if (divided.empty())
 		return;
 	splitPoints(map.mesh);
-	settle(divided, placing.turns, map);
+	settle(divided, turns, map);
 	countCuts(before, map);
 }
 

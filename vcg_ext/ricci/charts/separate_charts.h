@@ -3,6 +3,8 @@
 #define RICCI_SEPARATE_CHARTS_H
 
 #include "../layout/parametrization.h"
+#include "chart_overlap.h"
+#include "dual_graph.h"
 
 #include <optional>
 #include <vector>
@@ -13,19 +15,13 @@ namespace ricci {
 /// \p before.
 void countCuts(const Seams& before, Parametrization& map);
 
-/// How parts of a divided chart are placed.
-struct PartPlacing
-{
-	bool turns =
-		true; ///< their smallest bounding rectangles along the axes; else in the directions they have
-	bool reflects = true; ///< flipped triangles are cut off and reflected
-};
-
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
 /// parts of divideChart(), joined again by joinParts() across seams where they fit, each from the
 /// origin. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
 /// length.
-void separateCharts(const PartPlacing& placing, Parametrization& map);
+/// \param turns their smallest bounding rectangles along the axes; else they keep the directions they have
+/// \param reflects flipped triangles are cut off and reflected
+void separateCharts(bool turns, bool reflects, Parametrization& map);
 
 /// Joins charts across seams where they fit (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report
@@ -74,6 +70,42 @@ void cutChart(const ChartCut& cut, bool turns, Parametrization& map);
 /// Makes each of some triangles a chart, and each connected part of what they leave of their charts: from the
 /// origin, in the directions that it has. The report counts the charts and the cuts as separateCharts() does.
 void cutOff(const std::vector<int>& triangles, Parametrization& map);
+
+/// Part 1 on one side of a cut of least weight between two sets of triangles, 0 on the other.
+Array<int>
+leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector<int>& to);
+
+/// Divides a chart along edges of its triangles so that no part covers itself. Two triangles are
+/// neighbours where their sides are joined.
+///
+/// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
+/// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
+/// (cutting an edge costs its length on the surface). Cutting moves nothing in the plane, so each cut
+/// removes pairs and makes none. The cut is exact, but only the smaller side of it is searched (min_cut.h). A
+/// later cut can make an earlier one needless: joinParts() finds that. The same input always gives the same
+/// parts.
+///
+/// A fold may hide an overlap and then go to another part than the triangles that it hides: what appears
+/// in the parts is added to the pairs, and the chart is divided again. A chart of so many sheets that not
+/// all pairs are listed is first halved, across its middle.
+/// \param overlaps of chart.corners()
+/// \return the triangles of each connected part, in increasing order, the parts by their first
+std::vector<std::vector<int>> divideChart(const FlatMesh& chart, const OverlapSearch& overlaps);
+
+/// Share of the area in space below which a part is joined to another wherever possible.
+constexpr double kCrumb = 0.01;
+
+/// Joins parts of a chart across seams: the sides of a seam are isometric, so that a part can be moved to
+/// the other side of it, where it often fits. Two parts at a time are joined, along the longest border
+/// at which nothing is covered twice then. What is left and smaller than kCrumb of all, and much smaller
+/// than the largest part, is divided among the parts round it, if all of it fits there and seams
+/// get no longer. Sides that come to lie on each other are joined.
+/// \param chart its points are moved and renumbered
+/// \param parts triangles of each, connected; none covers itself
+/// \param tree of the boxes of all triangles, if no point lies in many of them
+/// \return the parts that are left: their triangles in increasing order, the parts by their first
+std::vector<std::vector<int>> joinParts(
+	FlatMesh& chart, const std::vector<std::vector<int>>& parts, const BoxTree* tree = nullptr);
 
 } // namespace ricci
 

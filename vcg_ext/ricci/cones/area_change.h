@@ -2,7 +2,7 @@
 #ifndef RICCI_AREA_CHANGE_H
 #define RICCI_AREA_CHANGE_H
 
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 
 namespace ricci {
 

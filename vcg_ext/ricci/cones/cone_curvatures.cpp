@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_curvatures.h"
 
-#include "../base/numbers.h"
 #include "../base/tolerances.h"
 
 #include <Eigen/Cholesky>
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

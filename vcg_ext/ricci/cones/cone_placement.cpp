@@ -6,14 +6,13 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "area_change.h"
-#include "cone_search.h"
+#include "cone_model.h"
 #include "mirrored_cones.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -29,7 +28,6 @@ constexpr double kSeamAllowance = 1.05;
 /// 66 meshes four come out otherwise where it is 5: E 5.57 -> 5.23, 5.57 -> 5.64, 6.03 -> 5.52, 5.31 -> 5.01.
 constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
 			  kMaxConeNumbersBeside = 600000, kMaxConeNumbersBesidePoor = 5000000;
-constexpr double kPoorMap = 5.0;
 
 /// On more vertices than the first number, cones are searched for on at most so many aggregates of
 /// them as the second.
@@ -179,15 +177,6 @@ void addForDistortion(const TargetRequest& request, ConeModel& model, const Cone
 	}
 }
 
-/// The same, with no more cones than it takes.
-void placeForDistortion(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
-{
-	addForDistortion(request, model, sites);
-	const double distortion = request.options.cones.distortion;
-	if (model.distortion() <= distortion && model.size() <= kMaxPlacedCones)
-		dropCones(model, sites, distortion);
-}
-
 /// Adds cones until areas are expected to be kept as is asked for.
 void addForAreas(
 	const EmbeddedSurface& surface,
@@ -217,8 +206,11 @@ void search(const TargetRequest& request, ConeModel& model, const ConeSites& sit
 		placeCount(wanted, model, sites);
 	else if (goal == ConeGoal::LeastCost)
 		placeForObjective(request, model, sites);
-	else
-		placeForDistortion(request, model, sites);
+	else {
+		addForDistortion(request, model, sites);
+		if (model.distortion() <= wanted.distortion && model.size() <= kMaxPlacedCones)
+			dropCones(model, sites, wanted.distortion);
+	}
 	if (wanted.rounding != ConeRounding::Free) {
 		model.setRounding(wanted.rounding); // also where no vertex was left for one more cone
 		relocateCones(model, sites);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cone_search.h"
+#include "cone_model.h"
 
 #include "../base/graphs.h"
 #include "../base/numbers.h"

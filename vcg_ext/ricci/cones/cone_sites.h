@@ -3,7 +3,7 @@
 #define RICCI_CONE_SITES_H
 
 #include "../base/graphs.h"
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 
 #include <vector>
 

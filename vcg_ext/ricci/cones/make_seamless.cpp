@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "make_seamless.h"
+#include "seamless_metric.h"
 
 #include "../base/numbers.h"
 #include "../base/points.h"
@@ -16,7 +16,6 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

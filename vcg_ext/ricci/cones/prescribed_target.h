@@ -3,10 +3,10 @@
 #define RICCI_PRESCRIBED_TARGET_H
 
 #include "../base/points.h"
-#include "../base/tolerances.h"
 #include "../flow/target.h"
 #include "../mesh/elements.h"
 #include "../mesh/triangulation.h"
+#include "../options.h"
 
 #include <array>
 #include <vector>
@@ -55,6 +55,17 @@ void checkFreeBoundary(const Topology& topology, const Target& target);
 /// \pre \p loop has at least four vertices
 std::array<Vertex, 4>
 rectangleCorners(const std::vector<Vertex>& loop, const VertexArray<Point3>& positions);
+
+/// Chooses the target of the hyperbolic flow and checks that a metric with that curvature can exist:
+/// K < 2 pi inside, K < pi on the boundary, and sum K > 2 pi chi, because the difference is the area
+/// (Gauss-Bonnet). Smooth metrics with these cones then do exist on closed surfaces
+/// [Troyanov 1991]. Where the boundary is free the sum over the vertices inside needs to be above
+/// 2 pi chi - pi n only, for n vertices on the boundary: see checkFreeBoundary(). The scale at which
+/// its circles keep their radii is freeBoundaryArea().
+/// \throw InvalidOption if a cone's angle is not positive, or nothing is selected for cones
+/// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
+Target chooseHyperbolicTarget(
+	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input);
 
 } // namespace ricci
 

@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -186,6 +185,13 @@ EdgeArray<double> derivativeByLengths(
 	return derivative;
 }
 
+namespace {
+
+/// [vertex] The derivative of the holonomy of a loop by the curvature that the flow is to reach there: u
+/// follows the curvature, and the holonomy follows u. 0 where u is fixed.
+/// \param corners turnedCorners()
+/// \param u where \p map was evaluated
+/// \param hessian factorised there
 VertexVector holonomyByCurvature(
 	const CurvatureMap& map,
 	const VertexVector& u,
@@ -207,8 +213,6 @@ VertexVector holonomyByCurvature(
 	}
 	return hessian.scatter(hessian.cholesky().solve(hessian.gather(byU)));
 }
-
-namespace {
 
 constexpr int kMaxSteps = 12;
 

@@ -7,6 +7,7 @@
 #include "../flow/ricci_flow.h"
 #include "../mesh/elements.h"
 #include "../mesh/triangulation.h"
+#include "target_curvature.h"
 
 #include <Eigen/Core>
 #include <vector>
@@ -39,22 +40,12 @@ EdgeArray<double> derivativeByLengths(
 	const HalfedgeArray<double>& weights,
 	const HalfedgeArray<double>& angles);
 
-/// [vertex] The derivative of the holonomy of a loop by the curvature that the flow is to reach there: u
-/// follows the curvature, and the holonomy follows u. 0 where u is fixed.
-/// \param corners turnedCorners()
-/// \param u where \p map was evaluated
-/// \param hessian factorised there
-VertexVector holonomyByCurvature(
-	const CurvatureMap& map,
-	const VertexVector& u,
-	FactoredHessian& hessian,
-	const HalfedgeArray<double>& corners);
-
 /// The holonomy of the loops (homologyLoops()) in the metric of a flow, and what changes it.
 struct Holonomy
 {
-	Eigen::VectorXd errors;                ///< [loop] less the nearest multiple of pi / 2, radians
-	std::vector<VertexVector> byCurvature; ///< [loop] holonomyByCurvature()
+	Eigen::VectorXd errors; ///< [loop] less the nearest multiple of pi / 2, radians
+	std::vector<VertexVector>
+		byCurvature; ///< [loop][vertex] derivative by the curvature to be reached
 	/// C: a change of the holonomies by r costs a change of the metric with the mean square r C r of
 	/// the Beltrami coefficient by area in space, where it is the least.
 	Eigen::MatrixXd cost;
@@ -84,6 +75,21 @@ Holonomy holonomy(const FlowResult& flow);
 /// \pre Euclidean, with intrinsic flips
 /// \return steps of Newton's method
 int roundHolonomy(FlowResult& flow, double epsilon);
+
+/// Makes the rotations across all seams of \p flow multiples of pi / 2, if its cones were placed with
+/// such curvatures: runs the flow again to cones that bring the holonomies nearer to multiples of pi / 2,
+/// as long as that helps, and then rounds those of the best metric, see roundHolonomy(). Does nothing
+/// to another flow, nor on the double of a surface.
+/// \param flow on \p surface, with intrinsic flips, to a target that was chosen for \p request
+/// \param epsilon of the flow, radians
+/// \param flowTo runs it again
+/// \return steps of Newton's method that roundHolonomy() took
+int makeSeamless(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	double epsilon,
+	const FlowTo& flowTo,
+	FlowResult& flow);
 
 } // namespace ricci
 

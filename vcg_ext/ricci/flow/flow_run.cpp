@@ -4,7 +4,7 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 #include "../mesh/normal_coordinates.h"
 #include "../metric/area.h"
 #include "../numerics/iteration.h"
@@ -49,16 +49,6 @@ double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 		max = std::max(max, turn);
 	}
 	return max - min;
-}
-
-/// Exterior angle at each corner of the inscribed polygon with these arcs, radians: half the sum of
-/// the two adjacent arcs.
-std::vector<double> exteriorAngles(const std::vector<double>& arcs)
-{
-	std::vector<double> angles(arcs.size());
-	for (std::size_t i = 0; i < arcs.size(); ++i)
-		angles[i] = 0.5 * (arcs[i] + arcs[(i + arcs.size() - 1) % arcs.size()]);
-	return angles;
 }
 
 /// Arcs after the Moebius transformation of the disk that brings the conformal barycentre of the
@@ -345,9 +335,12 @@ NewtonResult FlowRun::solveOnCircle()
 			logLine(
 				"Solve " + std::to_string(step + 1) +
 				" for the circle: its angles are updated to the present lengths of the boundary.");
-		const std::vector<double> angles = exteriorAngles(m_arcs);
-		for (std::size_t i = 0; i < angles.size(); ++i)
-			m_result.target.curvature[loop[i]] = (m_result.doubled ? 2.0 : 1.0) * angles[i];
+		for (std::size_t i = 0; i < m_arcs.size();
+			 ++i) { // of the inscribed polygon with these arcs
+			const double exterior =
+				0.5 * (m_arcs[i] + m_arcs[(i + m_arcs.size() - 1) % m_arcs.size()]);
+			m_result.target.curvature[loop[i]] = (m_result.doubled ? 2.0 : 1.0) * exterior;
+		}
 		const bool last = change < kCircleTolerance;
 		const double inner = std::min(kInnerAccuracy, kInnerAccuracy * change);
 		m_solved = solveFor(last ? m_options.epsilon : std::max(m_options.epsilon, inner));

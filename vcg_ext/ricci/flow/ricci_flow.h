@@ -4,7 +4,7 @@
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 #include "../metric/circle_packing.h"
 #include "../options.h"
 #include "newton.h"
@@ -98,6 +98,28 @@ int improve(int maxRounds, int maxVain, Propose propose, Take take)
 	}
 	return round;
 }
+
+/// A flow with the remedy of paper 5.4 for triangles that break: inner edges are swapped, boundary
+/// edges are split, after which the flow starts again.
+struct SwappedFlow
+{
+	FlowDomain domain; ///< with the boundary edges split, before any swap
+	/// Its iterations are those of all starts, the triangulation of its metric is swapped.
+	FlowResult flow;
+	int swaps = 0; ///< over all starts
+	int splits = 0;
+};
+
+/// Chooses the target of one start of the flow.
+using ChooseTarget = std::function<Target(const EmbeddedSurface&, InitialPacking&)>;
+
+/// \param states those before each Newton step of all starts are appended
+/// \throw NotConverged, what \p chooseTarget throws
+SwappedFlow flowWithEdgeSwaps(
+	const Component& component,
+	const FlowOptions& options,
+	const ChooseTarget& chooseTarget,
+	std::vector<FlowState>& states);
 
 } // namespace ricci
 

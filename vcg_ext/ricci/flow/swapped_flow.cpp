@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "swapped_flow.h"
+// The remedy of paper 5.4 where the flow breaks the triangle inequality.
+#include "ricci_flow.h"
 
 #include "../base/points.h"
 #include "../base/task.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <utility>
 
 namespace ricci {
 

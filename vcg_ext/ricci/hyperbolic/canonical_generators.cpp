@@ -216,11 +216,6 @@ Matrix3 adjoint(const ExtendedIsometry& m)
 
 } // namespace
 
-ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>& generators)
-{
-	return productOf(word, 0, word.size(), generators);
-}
-
 std::vector<Handles>
 canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators)
 {
@@ -346,7 +341,9 @@ public:
 			m_best.letters.begin(),
 			m_best.letters.end(),
 			m_handles.begin() + static_cast<std::ptrdiff_t>(m_best.first));
-		close();
+		std::copy(m_handles.begin(), m_handles.end(), m_generators.begin());
+		closeRelation(m_word, m_tail, m_generators);
+		std::copy(m_generators.begin(), m_generators.end(), m_handles.begin());
 		measure();
 		return true;
 	}
@@ -419,13 +416,6 @@ private:
 			m_best.letters.assign(letters.begin(), letters.end());
 			m_best.condition = condition;
 		}
-	}
-
-	void close()
-	{
-		std::copy(m_handles.begin(), m_handles.end(), m_generators.begin());
-		closeRelation(m_word, m_tail, m_generators);
-		std::copy(m_generators.begin(), m_generators.end(), m_handles.begin());
 	}
 
 	void measure()

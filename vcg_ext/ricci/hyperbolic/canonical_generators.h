@@ -22,9 +22,6 @@ using GroupWord = std::vector<GroupLetter>;
 /// a1, b1, ..., ag, bg.
 using Handles = std::vector<ExtendedIsometry>;
 
-/// Product of the letters of \p word.
-ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>& generators);
-
 /// Canonical generators a1, b1, ..., ag, bg of the surface whose fundamental polygon has the sides
 /// \p word: [a1,b1] ... [ag,bg] is the product of \p word. There are many; these move 0 least.
 ///

@@ -5,7 +5,6 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../charts/chart_division.h"
 #include "../charts/chart_overlap.h"
 #include "../charts/separate_charts.h"
 #include "../layout/hyperbolic_layout.h"
@@ -62,8 +61,8 @@ Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
 		triangles[positionOf(cells.of[f])].push_back(f);
 		for (const Corner side : cornersOf(f))
 			if (const Corner other = chart.joined(side); other.isValid()) {
-				const double chord = chordLength(middle[f], middle[other.face()]);
-				front.offer(other.face(), front[f] + 2.0 * std::asinh(0.5 * chord), f);
+				const double way = distanceInDisk(middle[f], middle[other.face()]);
+				front.offer(other.face(), front[f] + way, f);
 			}
 	}
 	for (std::size_t i = 1; i < triangles.size(); ++i)
@@ -94,14 +93,15 @@ farthestInvalid(const FlatMesh& chart, const Cells& cells, const Validity& valid
 	return farthest;
 }
 
-} // namespace
-
+/// What a triangle must be in the unit disk, so that floats hold it where so many disks are placed in the square.
 Validity diskValidity(std::size_t disks)
 {
 	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
 	const double height = kMinFloatSteps * (2.0 * perRow * floatStep(1.0));
 	return {height, kWantedHeights * height};
 }
+
+} // namespace
 
 bool divideDisks(Parametrization& map)
 {

@@ -5,12 +5,7 @@
 #include "../layout/parametrization.h"
 #include "../optimize/patches.h"
 
-#include <cstddef>
-
 namespace ricci {
-
-/// What a triangle must be in the unit disk, so that floats hold it where so many disks are placed in the square.
-Validity diskValidity(std::size_t disks);
 
 /// Divides the charts in the Poincaré disk that reach too far out for floats: a triangle at the distance r from
 /// 0 is drawn e^r times smaller than at 0. The parts are the Voronoi cells of some triangles, the first of which

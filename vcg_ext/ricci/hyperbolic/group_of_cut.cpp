@@ -22,15 +22,9 @@ namespace {
 class CutTreeWalk
 {
 public:
-	struct Record
-	{
-		GroupWord word; ///< of the generators that are crossed
-		/// Holonomy round each boundary loop and cone, conjugated so that their product is that of
-		/// the word.
-		std::vector<ExtendedIsometry> peripheral;
-		std::vector<Vertex> peripheralVertex;
-		double closingError = 0.0;
-	};
+	/// The generators that are crossed, and the holonomy round each boundary loop and cone, conjugated so that their
+	/// product is that of the word.
+	using Record = std::pair<GroupWord, std::vector<ExtendedIsometry>>;
 
 	CutTreeWalk(
 		const Triangulation& t, const CutGraph& cut, const EdgeArray<SidePairing>& pairing) :
@@ -104,7 +98,7 @@ private:
 			return out;
 		Visit& top = m_stack.back();
 		if (m_generatorOf[e] >= 0) {
-			m_record.word.push_back({m_generatorOf[e], !in.isFirst()});
+			m_record.first.push_back({m_generatorOf[e], !in.isFirst()});
 			top.here = top.here * across(in, m_pairing).isometry();
 			return out;
 		}
@@ -127,13 +121,9 @@ private:
 	void leave(const ExtendedIsometry& round)
 	{
 		const Visit& top = m_stack.back();
-		if (!m_loop[top.node].isValid() && !m_cut.cones[top.node]) {
-			m_record.closingError =
-				std::max(m_record.closingError, static_cast<double>(round.distanceFromIdentity()));
+		if (!m_loop[top.node].isValid() && !m_cut.cones[top.node])
 			return;
-		}
-		m_record.peripheral.push_back(top.place * round * top.place.inverse());
-		m_record.peripheralVertex.push_back(top.node);
+		m_record.second.push_back(top.place * round * top.place.inverse());
 	}
 
 	const Triangulation& m_t;
@@ -210,25 +200,21 @@ FuchsianGroup fuchsianGroup(
 		group.sides.push_back(rounded(side));
 		group.sides.push_back(rounded(side.inverse()));
 	}
-	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, pairing).run();
+	const auto [word, holonomies] = CutTreeWalk(t, cut, pairing).run();
 
 	Array<ExtendedIsometry> generators;
 	for (const Edge e : cut.generators)
 		generators.push_back(pairing[e].isometry());
 	// The relation is the word times the inverses of the peripheral elements, last first.
-	std::vector<ExtendedIsometry> peripheral(walk.peripheral.rbegin(), walk.peripheral.rend());
+	std::vector<ExtendedIsometry> peripheral(holonomies.rbegin(), holonomies.rend());
 	ExtendedIsometry tail;
 	for (ExtendedIsometry& element : peripheral) {
 		element = element.inverse();
 		tail = tail * element;
 	}
-	group.polygonError =
-		static_cast<double>((productOf(walk.word, generators) * tail).distanceFromIdentity());
-	group.closingError = walk.closingError;
 	group.peripheral = allRounded(peripheral);
-	group.peripheralVertex.assign(walk.peripheralVertex.rbegin(), walk.peripheralVertex.rend());
 	if (canonical)
-		addCanonicalBasis(walk.word, std::move(generators), peripheral, tail, group);
+		addCanonicalBasis(word, std::move(generators), peripheral, tail, group);
 	return group;
 }
 
@@ -261,9 +247,8 @@ public:
 		double length = 0.0;
 		for (const Halfedge h : m_t.loop(first)) {
 			const Halfedge inside = h.twin();
-			const double chord =
-				chordLength(asComplex(m_layout[inside]), asComplex(m_layout[m_t.next(inside)]));
-			length += 2.0 * std::asinh(0.5 * chord);
+			length +=
+				distanceInDisk(asComplex(m_layout[inside]), asComplex(m_layout[m_t.next(inside)]));
 		}
 		return length;
 	}
@@ -347,9 +332,7 @@ double closingError(const FlatMesh& disks, const std::vector<double>& curvature)
 	};
 	std::vector<Star> stars(positionOf(disks.vertexCount()));
 	const auto length = [&](Corner side) {
-		return 2.0 *
-			   std::asinh(
-				   0.5 * chordLength(asComplex(disks.at(side)), asComplex(disks.at(side.next()))));
+		return distanceInDisk(asComplex(disks.at(side)), asComplex(disks.at(side.next())));
 	};
 	double error = 0.0;
 	for (const int f : disks.points.indices()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tiling.h"
+#include "group_of_cut.h"
 
 #include "../base/tolerances.h"
 

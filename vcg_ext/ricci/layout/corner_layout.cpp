@@ -2,7 +2,6 @@
 #include "corner_layout.h"
 
 #include "../base/graphs.h"
-#include "../base/memory_estimate.h"
 #include "../base/task.h"
 #include "../mesh/normal_coordinates.h"
 

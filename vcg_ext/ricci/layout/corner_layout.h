@@ -3,7 +3,7 @@
 #define RICCI_CORNER_LAYOUT_H
 
 #include "../flow/ricci_flow.h"
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"
 

@@ -47,6 +47,14 @@ double FlatMesh::area() const
 	return sum;
 }
 
+double FlatMesh::planeArea() const
+{
+	double doubled = 0.0;
+	for (const int f : points.indices())
+		doubled += std::abs(doubledArea(at(f)));
+	return 0.5 * doubled;
+}
+
 std::array<double, 2> FlatMesh::stretch(int triangle) const
 {
 	const std::array<double, 3>& l = lengths[triangle];
@@ -257,6 +265,15 @@ void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh)
 			for (const Corner c : fan)
 				mesh.points[c] = point;
 		}
+}
+
+void scaleToSurface(FlatMesh& mesh)
+{
+	if (const double plane = mesh.planeArea(); plane > 0.0) {
+		const double scale = std::sqrt(mesh.area() / plane);
+		for (Point2& p : mesh.place)
+			p *= scale;
+	}
 }
 
 void connect(FlatMesh& mesh)

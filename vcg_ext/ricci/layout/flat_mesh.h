@@ -17,7 +17,7 @@
 namespace ricci {
 
 /// Triangles laid out in the plane or in the Poincaré disk: the mesh's own, or those of its refinement
-/// (common_refinement.h). Corner k of a triangle begins its side k.
+/// (overlay_pieces.h). Corner k of a triangle begins its side k.
 struct FlatMesh
 {
 	/// [triangle] corners by vertex of the surface, or by point of the refinement, in the one order that
@@ -75,8 +75,9 @@ struct FlatMesh
 	/// its points after those here. Sources are not added.
 	void append(FlatMesh other);
 
-	/// Of all triangles, on the surface.
+	/// Of all triangles, on the surface; and in the plane, where orientation does not count.
 	double area() const;
+	double planeArea() const;
 
 	/// Integrals of |J|^2 and |J^-1|^2 over a triangle of the surface, where J is the derivative of the map;
 	/// 0 where it has no area there, infinite where it has none in the plane. Orientation does not count.
@@ -138,6 +139,9 @@ void splitPoints(FlatMesh& mesh);
 
 /// The same for some triangles, whose points belong to no others: at each point one part keeps the number.
 void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
+
+/// Scales a map by one factor to the area of the surface, if it has any in the plane.
+void scaleToSurface(FlatMesh& mesh);
 
 /// Finds FlatMesh::across by the vertices.
 void connect(FlatMesh& mesh);

@@ -3,7 +3,6 @@
 #define RICCI_PARAMETRIZATION_H
 
 #include "../base/points.h"
-#include "../mesh/elements.h"
 #include "../numerics/disk_isometry.h"
 #include "../report.h"
 #include "flat_mesh.h"
@@ -26,7 +25,6 @@ struct FuchsianGroup
 	/// relation. A geodesic boundary of length L has |trace| = 2 cosh(L / 2); a cone of angle t is
 	/// a rotation, |trace| = 2 |cos(t / 2)| [Beardon 1983].
 	std::vector<DiskIsometry> peripheral;
-	std::vector<Vertex> peripheralVertex; ///< for each of them a vertex of the loop, or the cone
 
 	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, in extended
 	/// precision: the last place of a double is magnified by the condition (see bestConditioned()). Empty
@@ -51,15 +49,8 @@ struct FuchsianGroup
 	/// cut.
 	std::vector<DiskIsometry> sides;
 
-	/// Holonomy that the layout leaves round the corner of the polygon, as seen from 0: largest
-	/// entry of the difference of the relation of the polygon from +-1. From there rounding looks
-	/// larger by the exponential of the distances on the way; closingError() does without them.
-	double polygonError = 0.0;
-	/// The same for the loops round each single regular vertex at which the cut branches or ends.
-	double closingError = 0.0;
-
 	/// Largest entry of the difference of the canonical relation from +-1, in extended precision.
-	/// Its generators have been moved by about polygonError so that the relation holds. It multiplies
+	/// Its generators have been moved by what the layout leaves, so that the relation holds. It multiplies
 	/// large isometries, so that rounding leaves more of it where the genus is higher or the surface
 	/// longer: 2^-101 of the condition (see bestConditioned()), to the order of magnitude.
 	double relationError = 0.0;

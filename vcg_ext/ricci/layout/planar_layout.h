@@ -3,7 +3,7 @@
 #define RICCI_PLANAR_LAYOUT_H
 
 #include "../base/points.h"
-#include "../mesh/flow_domain.h"
+#include "../mesh/component.h"
 #include "../mesh/triangulation.h"
 #include "flat_mesh.h"
 

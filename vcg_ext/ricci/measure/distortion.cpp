@@ -294,9 +294,9 @@ std::vector<int> unseenTriangles(const FlatMesh& mesh)
 	return unseen;
 }
 
-StretchIntegrals stretchIntegrals(const FlatMesh& mesh)
+std::array<double, 3> stretchIntegrals(const FlatMesh& mesh)
 {
-	StretchIntegrals sum;
+	double forth = 0.0, back = 0.0, area = 0.0;
 	const std::vector<int> unseen = unseenTriangles(mesh);
 	auto next = unseen.begin();
 	for (const int f : mesh.points.indices()) {
@@ -305,12 +305,12 @@ StretchIntegrals stretchIntegrals(const FlatMesh& mesh)
 			continue;
 		}
 		const auto [ahead, behind] = mesh.stretch(f);
-		sum.forth += ahead;
-		sum.back += behind;
+		forth += ahead;
+		back += behind;
 		if (behind > 0.0)
-			sum.area += euclideanArea(mesh.lengths[f]);
+			area += euclideanArea(mesh.lengths[f]);
 	}
-	return sum;
+	return {forth, back, area};
 }
 
 double stretchEnergy(const FlatMesh& mesh)

@@ -74,11 +74,7 @@ std::vector<int> unseenTriangles(const FlatMesh& mesh);
 
 /// Integrals of |J|^2 and |J^-1|^2 over a surface (FlatMesh::stretch()), and its area. unseenTriangles() are left out:
 /// a few needles would else decide which map is taken.
-struct StretchIntegrals
-{
-	double forth = 0.0, back = 0.0, area = 0.0;
-};
-StretchIntegrals stretchIntegrals(const FlatMesh& mesh);
+std::array<double, 3> stretchIntegrals(const FlatMesh& mesh);
 
 /// The energy of a map, see MapCost, by these; infinite where a triangle has no area in the plane. Orientation does
 /// not count.

@@ -241,13 +241,6 @@ PeriodMatrix fromEnergies(const Eigen::MatrixXd& energy)
 	return result;
 }
 
-/// Another basis of the lattice: row i of the imaginary part's Gram matrix plus \p factor times row j.
-void addRow(Eigen::MatrixXcd& omega, Eigen::Index i, Eigen::Index j, double factor)
-{
-	omega.row(i) += factor * omega.row(j);
-	omega.col(i) += factor * omega.col(j);
-}
-
 /// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to three others, each with
 /// the factor +-1.
 /// \return whether that was possible
@@ -258,8 +251,10 @@ bool shorten(Eigen::MatrixXcd& omega, Eigen::Index i)
 	const std::function<bool(Eigen::Index, int, double)> add =
 		[&](Eigen::Index first, int terms, double change) {
 			if (change < -kCancelled * omega(i, i).imag()) {
-				for (const auto& [j, factor] : added)
-					addRow(omega, i, j, factor);
+				for (const auto& [j, factor] : added) {
+					omega.row(i) += factor * omega.row(j);
+					omega.col(i) += factor * omega.col(j);
+				}
 				return true;
 			}
 			for (Eigen::Index j = first; terms > 0 && j < omega.rows(); ++j)

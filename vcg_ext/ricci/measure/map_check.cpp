@@ -4,7 +4,6 @@
 #include "../base/indexed.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/tolerances.h"
 #include "../charts/chart_overlap.h"
 #include "../error.h"
 #include "../numerics/disk_isometry.h"
@@ -49,14 +48,10 @@ double excessOf(double a, double b, double c)
 	return static_cast<double>(DoubleDouble::sum(a, b) - c);
 }
 
-/// An angle, and the error that the rounding of the three lengths may cause in it.
-struct Angle
-{
-	double value, rounding;
-};
-
-/// The angle opposite to \p a, between \p b and \p c. \p product: S(b) S(c)
-Angle angleOf(Background background, double a, double b, double c, double product)
+/// The angle opposite to \p a, between \p b and \p c, and the error that the rounding of the three lengths may cause
+/// in it. \p product: S(b) S(c)
+std::pair<double, double>
+angleOf(Background background, double a, double b, double c, double product)
 {
 	const double overB = 0.5 * excessOf(a, c, b), overC = 0.5 * excessOf(a, b, c);
 	const double sine2 =
@@ -128,9 +123,9 @@ MetricCheck checkMetric(
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
 			const double product = ofLength[h[k].edge()] * ofLength[h[last].edge()];
-			const Angle angle = angleOf(background, l[next], l[k], l[last], product);
-			curvature[t.origin(h[k])] -= angle.value;
-			rounding[t.origin(h[k])] += angle.rounding;
+			const auto [angle, error] = angleOf(background, l[next], l[k], l[last], product);
+			curvature[t.origin(h[k])] -= angle;
+			rounding[t.origin(h[k])] += error;
 		}
 	}
 	for (const Vertex v : t.vertices()) {
@@ -365,7 +360,7 @@ int countUnequal(const FlatMesh& mesh, const Length& length, const Rounding& rou
 
 } // namespace
 
-OverlapsInFloats overlapsInFloats(const FlatMesh& mesh)
+std::array<int, 2> overlapsInFloats(const FlatMesh& mesh)
 {
 	checkpoint();
 	double step = 0.0;
@@ -373,15 +368,14 @@ OverlapsInFloats overlapsInFloats(const FlatMesh& mesh)
 	stored.place = inFloats(std::move(stored.place), step);
 	const OverlapSearch search(stored, kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
-	OverlapsInFloats count;
+	int faces = 0;
 	std::set<int> charts;
 	for (const int f : overlaps.indices())
 		if (overlaps[f]) {
-			++count.faces;
+			++faces;
 			charts.insert(stored.chart[f]);
 		}
-	count.charts = static_cast<int>(charts.size());
-	return count;
+	return {faces, static_cast<int>(charts.size())};
 }
 
 int unequalSeams(const FlatMesh& mesh)
@@ -406,7 +400,7 @@ int unequalSeamsInDisk(const Parametrization& map)
 		return asComplex(fromCentre) / (0.5 * square(c).width());
 	};
 	const auto length = [&](Corner side) {
-		return 2.0 * std::asinh(0.5 * chordLength(inDisk(side), inDisk(side.next())));
+		return distanceInDisk(inDisk(side), inDisk(side.next()));
 	};
 	// The metric is 2 |dz| / (1 - |z|^2).
 	const auto rounding = [&](Corner end) {

@@ -97,11 +97,8 @@ void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent);
 /// Triangles that cover a part of the plane together with another one, of their own chart or not, once their
 /// coordinates are rounded to float, and the charts that these are in. What is covered no deeper than kTouchingSteps
 /// steps of a float is what the rounding may have moved.
-struct OverlapsInFloats
-{
-	int faces = 0, charts = 0;
-};
-OverlapsInFloats overlapsInFloats(const FlatMesh& mesh);
+/// \return how many triangles, and how many charts
+std::array<int, 2> overlapsInFloats(const FlatMesh& mesh);
 
 /// The number of edges of seams whose two sides differ in length by more than
 /// kUnequalShare of the longer one, once their coordinates are rounded to float, and by more than

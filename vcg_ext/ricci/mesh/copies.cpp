@@ -3,7 +3,6 @@
 #include "component.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace ricci {

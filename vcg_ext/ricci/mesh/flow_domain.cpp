@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "flow_domain.h"
+#include "component.h"
 
 #include "../base/numbers.h"
 #include "../base/points.h"

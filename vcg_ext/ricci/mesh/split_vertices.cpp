@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face_gluing.h"
 
-#include "../base/graphs.h"
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "sides.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
 

@@ -83,6 +83,14 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 	return sum >= -kManyRoundings * magnitude;
 }
 
+/// Length of the other diagonal of the two plane triangles at edge \p e.
+/// \pre \p e is flippable
+double flippedLength(const IntrinsicMesh& mesh, Edge e)
+{
+	const Point2 k = apexOver(mesh, e.halfedge()), l = apexOver(mesh, e.halfedge().twin());
+	return std::hypot(k[0] - (mesh.lengths[e] - l[0]), k[1] + l[1]);
+}
+
 /// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
 void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
 {
@@ -233,12 +241,6 @@ Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths)
 		if (lengths[e] > original[e])
 			total.largest = std::max(total.largest, (lengths[e] - original[e]) / lengths[e]);
 	return total;
-}
-
-double flippedLength(const IntrinsicMesh& mesh, Edge e)
-{
-	const Point2 k = apexOver(mesh, e.halfedge()), l = apexOver(mesh, e.halfedge().twin());
-	return std::hypot(k[0] - (mesh.lengths[e] - l[0]), k[1] + l[1]);
 }
 
 InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)

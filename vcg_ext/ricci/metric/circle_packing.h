@@ -85,10 +85,6 @@ struct InitialPacking
 /// get the largest of what they need.
 Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths);
 
-/// Length of the other diagonal of the two plane triangles at edge \p e.
-/// \pre \p e is flippable
-double flippedLength(const IntrinsicMesh& mesh, Edge e);
-
 /// The start with intrinsic flips: flips to the intrinsic Delaunay triangulation of the metric,
 /// then, with half the initial radii of that, to the weighted one. Starting anywhere else would
 /// keep a conformal class that is not the surface's: a conformal flip is isometric only where the

@@ -20,8 +20,7 @@ namespace ricci {
 /// 1 / kMinIntrinsicHeight. More than this many are rounding's, which goes round in circles.
 inline std::int64_t maxFlips(int edgeCount)
 {
-	constexpr std::int64_t kWindings = 10000000, kPerEdge = 1000;
-	return std::max(kWindings, kPerEdge * edgeCount);
+	return std::max<std::int64_t>(10000000, std::int64_t(1000) * edgeCount);
 }
 
 /// Edges that wait for their test, and the work space of the searches that flip them.

@@ -128,8 +128,7 @@ struct Hyperbolic
 	/// series is exact to a double and several times faster than the library.
 	static double heron(double x)
 	{
-		constexpr double kSmall = 0.25; // x^12 / 13! < 1e-17
-		if (!(std::abs(x) < kSmall))
+		if (!(std::abs(x) < 0.25)) // below, x^12 / 13! < 1e-17
 			return std::sinh(x);
 		const double y = x * x;
 		return x + x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))));

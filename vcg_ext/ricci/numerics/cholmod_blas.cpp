@@ -16,7 +16,6 @@
 
 #include <cholmod.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 namespace {

@@ -140,6 +140,12 @@ inline double chordLength(std::complex<double> z, std::complex<double> w)
 	return 2.0 * std::abs(z - w) / std::sqrt(gap(z) * gap(w));
 }
 
+/// The hyperbolic distance of two points of the disk.
+inline double distanceInDisk(std::complex<double> z, std::complex<double> w)
+{
+	return 2.0 * std::asinh(0.5 * chordLength(z, w));
+}
+
 } // namespace ricci
 
 #endif

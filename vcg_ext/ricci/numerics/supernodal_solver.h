@@ -10,7 +10,6 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 namespace ricci {

@@ -5,7 +5,6 @@
 #include "../layout/hyperbolic_layout.h"
 #include "../numerics/disk_isometry.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>

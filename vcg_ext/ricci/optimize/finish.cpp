@@ -56,16 +56,16 @@ FinishCounts finishInPlane(
 	const auto boundaryMoves = [&](int v) {
 		return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]);
 	};
+	const BoundaryRepair boundary = freeBoundary ? BoundaryRepair::Free
+									: mayCut     ? BoundaryRepair::Kept
+												 : BoundaryRepair::KeptOnCircles;
 	const auto repair = [&] {
 		const double height = kMinHeight * flat.box().extent();
 		const Validity validity{height, kWantedHeights * height};
 		const CostOfPatch cost = mayCut ? costWithCuts(flat, validity) : nullptr;
 		WorkLimit limit(flat.points.size(), WorkLimit::kFew);
 		const Repair result = repairInStages(
-			flat,
-			boundaryMoves,
-			{RestShapes::OfSurface, validity, cost, !freeBoundary, !freeBoundary && !mayCut},
-			limit);
+			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, boundary}, limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)
 			logLine(

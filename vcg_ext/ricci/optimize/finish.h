@@ -6,7 +6,6 @@
 
 #include "../layout/flat_mesh.h"
 #include "../options.h"
-#include "point_groups.h"
 
 namespace ricci {
 

@@ -20,17 +20,6 @@ constexpr double kMinStretchGain = 1e-3;
 
 constexpr double kMinStretchStep = 1e-8;
 
-/// Gives the map the area of the surface.
-void scaleToSurface(FlatMesh& flat)
-{
-	double plane = 0.0;
-	for (const int f : flat.points.indices())
-		plane += 0.5 * std::abs(doubledArea(flat.at(f)));
-	const double scale = std::sqrt(flat.area() / plane);
-	for (Point2& p : flat.place)
-		p = {scale * p[0], scale * p[1]};
-}
-
 /// A map on its way to less stretch.
 class StretchDescent
 {

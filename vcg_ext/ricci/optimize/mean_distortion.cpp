@@ -188,7 +188,7 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 MeanDistortion::MeanDistortion(
 	const FlatMesh& flat, const PointGroups& groups, bool countsFlipped) :
 		m_points(flat, groups),
-		m_threads(defaultThreads()), m_shape(flat.points.size()), m_corners(flat.points.size()),
+		m_shape(flat.points.size()), m_corners(flat.points.size()),
 		m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0),
 		m_pull(flat.points.size())
 {
@@ -297,7 +297,7 @@ void MeanDistortion::evaluate(int f, const Eigen::VectorXcd& position)
 
 double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 {
-	inParallel(size(), m_threads, [&](int first, int last) {
+	inParallel(size(), defaultThreads(), [&](int first, int last) {
 		for (int f = first; f < last; ++f)
 			evaluate(f, position);
 	});
@@ -333,7 +333,7 @@ MeanDistortion::Complex MeanDistortion::pull(int point) const
 void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
 {
 	gradient.resize(m_points.unknowns);
-	inParallel(m_points.unknowns, m_threads, [&](int first, int last) {
+	inParallel(m_points.unknowns, defaultThreads(), [&](int first, int last) {
 		for (int i = first; i < last; ++i)
 			gradient[i] = pull(i);
 	});

@@ -80,9 +80,6 @@ public:
 		return {-(s.first + s.second), s.first, s.second};
 	}
 
-	/// Threads that evaluate; the result does not depend on them.
-	void useThreads(int threads) { m_threads = threads; }
-
 	int size() const { return m_shape.size(); }
 
 private:
@@ -98,7 +95,6 @@ private:
 	Complex pull(int point) const;
 
 	const NumberedPoints m_points;
-	int m_threads;
 	Array<Shape> m_shape;
 	Array<Triangle> m_corners;
 	Adjacency<int, Corner> m_cornersOf; // [moving point]

@@ -90,28 +90,19 @@ struct Derivatives
 	}
 };
 
-/// (x, y) -> (xx x + xy y, xy x + yy y), made positive semidefinite.
-struct Symmetric2
+/// The matrix (xx, xy; xy, yy) made positive semidefinite: xx, xy, yy.
+std::array<double, 3> semidefinite(double xx, double xy, double yy)
 {
-	double xx, xy, yy;
-
-	void makeSemidefinite()
-	{
-		const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), root = std::hypot(half, xy);
-		const double high = mean + root, low = mean - root;
-		if (low >= 0.0)
-			return;
-		if (high <= 0.0) {
-			xx = xy = yy = 0.0;
-			return;
-		}
-		// high times the projection on its eigenvector.
-		const double c = root > 0.0 ? half / root : 1.0, s = root > 0.0 ? xy / root : 0.0;
-		xx = 0.5 * high * (1.0 + c);
-		yy = 0.5 * high * (1.0 - c);
-		xy = 0.5 * high * s;
-	}
-};
+	const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), root = std::hypot(half, xy);
+	const double high = mean + root, low = mean - root;
+	if (low >= 0.0)
+		return {xx, xy, yy};
+	if (high <= 0.0)
+		return {0.0, 0.0, 0.0};
+	// high times the projection on its eigenvector.
+	const double c = root > 0.0 ? half / root : 1.0, s = root > 0.0 ? xy / root : 0.0;
+	return {0.5 * high * (1.0 + c), 0.5 * high * s, 0.5 * high * (1.0 - c)};
+}
 
 } // namespace
 
@@ -224,19 +215,18 @@ const PatchEnergy::Slots* PatchEnergy::add(
 	const Complex gz = 2.0 * weight * density.da * z, gw = 2.0 * weight * density.db * w;
 	// In the frames along f_z and f_zbar: the radial directions, and the two across.
 	const Complex u = a > 0.0 ? z / std::sqrt(a) : 1.0, v = b > 0.0 ? w / std::sqrt(b) : 1.0;
-	Symmetric2 radial{
+	const auto [xx, xy, yy] = semidefinite(
 		2.0 * density.da + 4.0 * a * density.daa,
 		4.0 * std::sqrt(a * b) * density.dab,
-		2.0 * density.db + 4.0 * b * density.dbb};
-	radial.makeSemidefinite();
+		2.0 * density.db + 4.0 * b * density.dbb);
 	const double acrossZ = std::max(2.0 * density.da, 0.0);
 	const double acrossW = std::max(2.0 * density.db, 0.0);
-	const double pz = 0.5 * weight * (radial.xx + acrossZ);
-	const double pw = 0.5 * weight * (radial.yy + acrossW);
-	const Complex qz = 0.5 * weight * (radial.xx - acrossZ) * u * u;
-	const Complex qw = 0.5 * weight * (radial.yy - acrossW) * v * v;
-	const Complex mixed = 0.5 * weight * radial.xy * u * std::conj(v);
-	const Complex mixedConj = 0.5 * weight * radial.xy * u * v;
+	const double pz = 0.5 * weight * (xx + acrossZ);
+	const double pw = 0.5 * weight * (yy + acrossW);
+	const Complex qz = 0.5 * weight * (xx - acrossZ) * u * u;
+	const Complex qw = 0.5 * weight * (yy - acrossW) * v * v;
+	const Complex mixed = 0.5 * weight * xy * u * std::conj(v);
+	const Complex mixedConj = 0.5 * weight * xy * u * v;
 	for (std::size_t k = 0; k < 3; ++k) {
 		const int row = element.variable[k];
 		if (row < 0)

@@ -4,7 +4,6 @@
 #include "../base/parallel.h"
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
-#include "round_border.h"
 
 #include <cmath>
 #include <limits>
@@ -457,12 +456,13 @@ Repair repairInStages(
 	Validity upright = rules.validity;
 	upright.height *= kFlat;
 	Array<char> stays(flat.vertexCount(), 0);
-	if (rules.slidesOnCircles && result.left > 0) {
+	if (rules.boundary == BoundaryRepair::KeptOnCircles && result.left > 0) {
 		result.moved.assign(flat.place.size(), 0);
 		stays = slideOnCircles(rules.validity, flat, result.moved);
 	}
 	for (int stage = 0; stage < 3 && result.left > 0; ++stage) {
-		if (stage == 2 && rules.keepsBoundary && badTriangles(flat, upright).empty())
+		if (stage == 2 && rules.boundary != BoundaryRepair::Free &&
+			badTriangles(flat, upright).empty())
 			break;
 		const auto moves = [&](int v) { return boundaryMoves(v) || (stage == 2 && !stays[v]); };
 		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, moves);

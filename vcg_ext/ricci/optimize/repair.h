@@ -16,16 +16,17 @@ namespace ricci {
 /// What a patch costs as it is in the map; called one after another.
 using CostOfPatch = std::function<double(const FlatMesh& flat, const Patch& patch)>;
 
+/// Where a repair may move the boundary. One that is kept is prescribed: it moves only if a triangle is flipped or
+/// flat, and where nothing may be cut off instead, circles of it stay circles.
+enum class BoundaryRepair { Free, Kept, KeptOnCircles };
+
 /// What a repair is after, and which patches it takes over.
 struct RepairRules
 {
 	RestShapes shapes;
 	Validity validity;
 	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
-	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
-	bool keepsBoundary = false;
-	/// It is prescribed, and nothing may be cut off instead: where it is a circle, it moves along that alone.
-	bool slidesOnCircles = false;
+	BoundaryRepair boundary = BoundaryRepair::Free;
 };
 
 /// A patch whose triangles are to be valid, and as near to the shapes of the rules as its border lets them be.
@@ -87,11 +88,11 @@ public:
 	/// What one stage may spend of it.
 	std::int64_t ofStage() const { return std::min(m_stage, m_left); }
 
-	/// \param work no more than is left
 	/// Steps on all triangles that a stage of a repair may spend where what it leaves can be cut off, or counted: few maps
 	/// that are not repaired by then are repaired by more.
 	static constexpr std::int64_t kFew = 50;
 
+	/// \param work no more than is left
 	void spend(std::int64_t work) { m_left -= work; }
 	std::int64_t left() const { return m_left; }
 
@@ -133,6 +134,16 @@ Repair repairInStages(
 /// \param boundaryMoves whether points of the surface's boundary may move
 Repair
 repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
+
+/// Puts the border of a disk, which the flow has made round as far as it went, on a circle.
+void makeRound(FlatMesh& flat);
+
+/// Moves points of borders that are circles along these, where triangles with all corners on one, or sides of it, are not
+/// valid, until they are as high as they should be: three points of a circle in their order have an area. Of all
+/// ways to keep the order at such distances it is the one with the least squares of the turns.
+/// \param moved [point] set to 1 where they have moved
+/// \return [vertex] 1 on a circle, where moving off it is not needed
+Array<char> slideOnCircles(const Validity& validity, FlatMesh& flat, Array<char>& moved);
 
 } // namespace ricci
 

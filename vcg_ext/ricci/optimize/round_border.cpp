@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "round_border.h"
+#include "repair.h"
 
 #include "../base/tolerances.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <vector>
 
 namespace ricci {
 

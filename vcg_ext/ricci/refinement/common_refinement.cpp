@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common_refinement.h"
+#include "overlay_pieces.h"
 
 #include "../base/graphs.h"
 #include "../base/task.h"

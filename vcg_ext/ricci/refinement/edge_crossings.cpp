@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edge_crossings.h"
 
-#include "../base/memory_estimate.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../numerics/double_double.h"

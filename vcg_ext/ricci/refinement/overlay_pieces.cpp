@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "overlay_pieces.h"
 
-#include "../base/memory_estimate.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../error.h"

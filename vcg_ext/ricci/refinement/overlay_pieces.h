@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder refinement: the common subdivision of the mesh and of the start and the end of the flow. Maps that
+// keep the mesh never come here.
 // Points of edges and triangles by barycentric coordinates.
 //
 // An affine coordinate of a point of an edge is its share: 0 at the origin of the edge's halfedge(),
@@ -30,6 +32,7 @@
 #include "../base/graphs.h"
 #include "../base/tolerances.h"
 #include "../flow/ricci_flow.h"
+#include "../layout/corner_layout.h"
 #include "../mesh/surface_mesh.h"
 #include "../mesh/triangulation.h"
 
@@ -241,6 +244,22 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 /// \return triangles as indices into the corners, counter-clockwise
 std::vector<std::array<std::size_t, 3>>
 triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& space);
+
+/// The layout of the overlay \p pieces of the triangles of the input, of the start and of the end of \p flow, cut
+/// along the surface's edges with \p isCut: every piece lies in one triangle of each, and the map to the plane or
+/// the disk is the flow's own there. The vertices of the refinement are the surface's, then the points where
+/// edges cross.
+///
+/// Positions: affine on the input's faces; in the plane by the projective map of the decorated
+/// discrete conformal equivalence, b'_i ~ b_i exp(-(u_i - u0_i)) between a start triangle and an
+/// end triangle with the same vertices [Springborn Schroeder Pinkall 2008], [Bobenko Lutz 2023];
+/// on the refinement it is continuous across all edges [Gillespie Springborn Crane 2021].
+/// \pre the flow ran with intrinsic flips
+SurfaceLayout layOutRefinement(
+	const FlowDomain& domain,
+	const FlowResult& flow,
+	OverlayPieces pieces,
+	const EdgeArray<char>& isCut);
 
 } // namespace ricci
 

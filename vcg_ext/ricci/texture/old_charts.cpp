@@ -79,7 +79,7 @@ OldOwners::OldOwners(
 	int width,
 	int height) :
 		m_blocks{width, height},
-		m_owners(1), m_extents(faces.size())
+		m_owners(1), m_repeats(faces.size(), 0), m_isWhole(faces.size(), 0)
 {
 	const PictureView<const char> view{width, height, nullptr};
 	std::vector<int>& owners = m_owners.front();
@@ -94,14 +94,15 @@ OldOwners::OldOwners(
 			const Triangle2 t = oldTexels(faces[f], width, height);
 			const Box2 box = boxAround(t);
 			const int key = keyOf(charts[f]);
-			Extent& extent = m_extents[positionOf(charts[f])];
+			char &repeats = m_repeats[positionOf(charts[f])],
+				 &isWhole = m_isWhole[positionOf(charts[f])];
 			// They start in the picture, which v leaves at the top.
 			if (box.max[0] > width + kBorder || box.min[1] < -kBorder)
-				extent.repeats = true;
+				repeats = 1;
 			if (box.width() > width + kBorder || box.height() > height + kBorder ||
 				visited > kMaxLayers * owners.size())
-				extent.isWhole = true;
-			if (extent.isWhole)
+				isWhole = 1;
+			if (isWhole)
 				continue;
 			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
 				checkpointNowAndThen(visited++);

@@ -86,8 +86,8 @@ public:
 		texels.m_owners = &m_owners;
 		texels.m_texels = m_owners.front().data();
 		texels.m_key = keyOf(chart);
-		texels.m_repeats = m_extents[positionOf(chart)].repeats;
-		texels.m_isWhole = m_extents[positionOf(chart)].isWhole;
+		texels.m_repeats = m_repeats[positionOf(chart)] != 0;
+		texels.m_isWhole = m_isWhole[positionOf(chart)] != 0;
 		return texels;
 	}
 
@@ -98,14 +98,9 @@ private:
 
 	static constexpr int kMixed = -1, kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
 
-	struct Extent
-	{
-		bool repeats = false, isWhole = false;
-	};
-
 	Blocks m_blocks;
 	std::vector<std::vector<int>> m_owners; // [level][block]
-	std::vector<Extent> m_extents;          // [chart]
+	std::vector<char> m_repeats, m_isWhole; // [chart]
 };
 
 } // namespace ricci

@@ -113,9 +113,8 @@ public:
 private:
 	double samples(const Point2& side) const
 	{
-		constexpr double kSlack = 0.05; // a little larger is not smaller
 		const double length = std::ldexp(std::hypot(side[0], side[1]), -m_level);
-		return std::max(std::ceil(length - kSlack), 1.0);
+		return std::max(std::ceil(length - 0.05), 1.0); // a little larger is not smaller
 	}
 
 	Point2 m_across, m_down; // its sides
@@ -161,12 +160,11 @@ public:
 	void nearest(const Point2& p, const Chart& chart, Sample* rgba) const
 	{
 		constexpr int kReach = 4;
-		constexpr double kOnMiddle = 1e-4;
 		const Point2 q = inside(p);
 		const int x = std::min(static_cast<int>(q[0]), m_picture.width - 1);
 		const int y = std::min(static_cast<int>(q[1]), m_picture.height - 1);
 		std::size_t best = m_picture.index(x, y);
-		const bool onMiddle = distance(q, {x + 0.5, y + 0.5}) < kOnMiddle;
+		const bool onMiddle = distance(q, {x + 0.5, y + 0.5}) < 1e-4;
 		double nearestSoFar = onMiddle ? 0.0 : HUGE_VAL;
 		for (int dy = -kReach; dy <= kReach; ++dy)
 			for (int dx = -kReach; dx <= kReach; ++dx) {

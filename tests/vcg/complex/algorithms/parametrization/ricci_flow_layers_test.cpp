@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/complex.h"
 #include "support/flat_meshes.h"
 #include "support/listener.h"
 #include "support/random_surface.h"

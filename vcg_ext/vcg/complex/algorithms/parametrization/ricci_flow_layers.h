@@ -10,7 +10,7 @@
 
 #include <ricci/base/task.h>
 #include <ricci/error.h>
-#include <ricci/hyperbolic/tiling.h>
+#include <ricci/hyperbolic/group_of_cut.h>
 #include <ricci/layout/parametrization.h>
 #include <ricci/numerics/disk_isometry.h>
 #include <ricci/sphere_map.h>
