@@ -6,7 +6,7 @@
 #include <ricci/base/graphs.h>
 #include <ricci/cut/cut_graph.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/mesh/mirror.h>
+#include <ricci/mesh/component.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "../base/numbers.h"
 #include "../flow/target.h"
-#include "../mesh/mirror.h"
+#include "../mesh/component.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
 #include "prescribed_target.h"

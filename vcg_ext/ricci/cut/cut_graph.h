@@ -5,7 +5,7 @@
 #define RICCI_CUT_GRAPH_H
 
 #include "../base/points.h"
-#include "../mesh/mirror.h"
+#include "../mesh/component.h"
 #include "../mesh/triangulation.h"
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mirror.h"
+#include "component.h"
 
 #include "../base/graphs.h"
 
