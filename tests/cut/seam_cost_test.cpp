@@ -60,6 +60,27 @@ TEST(SeamCost, ExposureOfAStarIsThatOfItsTwoModes)
 	EXPECT_LT(heights[1], 0.0); // or one mode alone decides
 }
 
+/// An octahedron folded shut: two opposite corners a and c of its equator lie in one place. Faces
+/// lie on each other in pairs, so that the normals of every other vertex cancel, and those of a and
+/// c, which have a third of the area, are opposite: their heights are h and -h, 3^(1/2) times the
+/// root mean square.
+TEST(SeamCost, ExposureWithoutANormalIsThatOfAPlane)
+{
+	SurfaceMesh mesh;
+	mesh.positions = {{0, 0, 0.25}, {-1, 0, 0}, {0, 0, 0.25}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+	for (int k = 0; k < 4; ++k) {
+		mesh.triangles.push_back({4, k, (k + 1) % 4});
+		mesh.triangles.push_back({5, (k + 1) % 4, k});
+	}
+	const Packed p(mesh);
+	const VertexArray<double> exposed =
+		exposure(p.triangulation, p.lengths, VertexArray<Point3>(mesh.positions));
+	for (int v : {1, 3, 4, 5})
+		EXPECT_EQ(exposed[Vertex(v)], 0.5);
+	EXPECT_NEAR(exposed[Vertex(0)] + exposed[Vertex(2)], 1.0, 1e-12);
+	EXPECT_NEAR(std::abs(exposed[Vertex(0)] - exposed[Vertex(2)]), std::tanh(std::sqrt(3.0)), 1e-9);
+}
+
 TEST(SeamCost, IsTheLengthWhereNothingIsToBeHidden)
 {
 	Random random(724);
