@@ -19,6 +19,9 @@ namespace {
 /// Share of the curvature that may be left between creases where a component is unfolded first.
 constexpr double kMaxCurvatureBetween = 0.25;
 
+/// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
+constexpr double kPoorCost = 6.0;
+
 /// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
 /// spread of areas below these are tried: the linear model promises too much where scales differ much. The second is
 /// tried also where the map costs so much more than was expected, mostly for charts that cover themselves. Of 1800
@@ -108,7 +111,7 @@ Parametrization withOtherCones(
 		const double cost = std::min(costOf(map).total(), alternative);
 		const bool isBroken =
 			!isTried && spread == kSpreadsInstead[1] && cost > expected + kBrokenPromise;
-		if (cost <= kPoorMap && !isBroken)
+		if (cost <= kPoorCost && !isBroken)
 			continue;
 		isTried = true;
 		Options other = options;
@@ -136,7 +139,7 @@ FlowPlan withCheaperHoles(
 		return plan;
 	const double cost = plan.target.expected->total();
 	const double ofHoles = kSeamPrice * plan.target.seamsWithout;
-	if (cost <= kPoorMap && ofHoles < kMinShareOfHoles * (cost - expectedEnergy(0.0)))
+	if (cost <= kPoorCost && ofHoles < kMinShareOfHoles * (cost - expectedEnergy(0.0)))
 		return plan;
 	auto capped = attempt("the holes stay boundaries", [&] {
 		Options other = options;
@@ -213,7 +216,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	logLines(lines);
 	bool isTried = !mayBeUnfolded; // whatever curvature is left between creases
 	const auto unfoldIfPoor = [&](double cost) {
-		if (!unfolded && cost > kPoorMap && !std::exchange(isTried, true))
+		if (!unfolded && cost > kPoorCost && !std::exchange(isTried, true))
 			unfolded = unfold(component, options, 1.0);
 	};
 
