@@ -28,6 +28,7 @@ constexpr double kSeamAllowance = 1.05;
 /// 66 meshes four come out otherwise where it is 5: E 5.57 -> 5.23, 5.57 -> 5.64, 6.03 -> 5.52, 5.31 -> 5.01.
 constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
 			  kMaxConeNumbersBeside = 600000, kMaxConeNumbersBesidePoor = 5000000;
+constexpr double kPoorMap = 5.0;
 
 /// On more vertices than the first number, cones are searched for on at most so many aggregates of
 /// them as the second.

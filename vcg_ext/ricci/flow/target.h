@@ -31,10 +31,6 @@ constexpr double kMirrorPrice = 0.015;
 /// Of the mean square of u in the energy, see expectedEnergy().
 constexpr double kEnergyPrice = 8.0;
 
-/// A map that costs more is poor. Beside it, or where it is expected, other maps are worth more time: of more cones, of
-/// capped holes, of the pieces between creases whatever their curvature.
-constexpr double kPoorMap = 5.0;
-
 /// What a map costs, or is expected to.
 struct MapCost
 {
