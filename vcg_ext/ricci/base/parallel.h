@@ -117,12 +117,11 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 	const auto runAndWait = [&] {
 		own();
 		std::unique_lock<std::mutex> lock(mutex);
-		while (atWork > 0)
-			if (isLess.wait_for(lock, kBetweenWaits) == std::cv_status::timeout) {
-				lock.unlock();
-				checkpoint();
-				lock.lock();
-			}
+		while (!isLess.wait_for(lock, kBetweenWaits, [&] { return atWork == 0; })) {
+			lock.unlock();
+			checkpoint();
+			lock.lock();
+		}
 	};
 	unlessEnded(runAndWait, ofOwn);
 	for (std::thread& other : others)

@@ -3,6 +3,7 @@
 
 #include "../base/convex_hull.h"
 #include "../base/numbers.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 
 #include <Eigen/Eigenvalues>

@@ -35,7 +35,7 @@ public:
 			if (mirror.isAboveFace(t, f))
 				continue;
 			triangles.emplace_back();
-			for (const std::size_t k : {0, 1, 2}) {
+			for (std::size_t k = 0; k < 3; ++k) {
 				const Vertex v = t.vertices(f)[k];
 				if (!m_inHalf[v].isValid()) {
 					m_inHalf[v] = Vertex(m_vertex.size());
@@ -49,7 +49,7 @@ public:
 		Face own(0);
 		for (const Face f : t.faces())
 			if (!mirror.isAboveFace(t, f)) {
-				for (const std::size_t k : {0, 1, 2})
+				for (std::size_t k = 0; k < 3; ++k)
 					m_edge[m_half.halfedges(own)[k].edge()] = t.halfedges(f)[k].edge();
 				own = Face(own.number() + 1);
 			}

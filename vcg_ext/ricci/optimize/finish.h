@@ -5,6 +5,7 @@
 #define RICCI_FINISH_H
 
 #include "../layout/flat_mesh.h"
+#include "../mesh/elements.h"
 #include "../options.h"
 
 namespace ricci {
