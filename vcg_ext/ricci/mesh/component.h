@@ -153,8 +153,8 @@ struct MirrorSymmetry
 	}
 };
 
-/// Finds one of a surface in space: across the planes normal to the axes of the coordinates, x first, through 0, the
-/// middle of the extent and the centroid of the vertices; and across those normal to the vertices' principal axes.
+/// Finds one of a surface in space: the first of its planes by the numbers of vertices, whatever its pose, if it mirrors all
+/// vertices; else one normal to an axis of the coordinates.
 /// \return null if there is none
 std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface);
 

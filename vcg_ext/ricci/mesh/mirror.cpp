@@ -3,7 +3,6 @@
 
 #include "../base/graphs.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,30 +29,57 @@ struct Plane
 	Point3 mirrored(const Point3& p) const { return p + (-2.0 * height(p)) * normal; }
 };
 
-std::vector<Plane> planesToTry(const VertexArray<Point3>& positions)
+/// So many planes are tried: on a round body there may be one for each two vertices.
+constexpr std::size_t kMaxPlanes = 1000;
+
+/// Planes through the centroid c of the vertices: every one that mirrors them all takes the vertex v farthest from c to one
+/// as far away, or leaves it there and takes another one, w, to one as far from c and from v, or leaves that there, too.
+/// Then planes normal to the axes of the coordinates, x first, through 0 and the middle of the extent: those of most models.
+/// \param noise by which distances may differ
+std::vector<Plane> planesToTry(const VertexArray<Point3>& positions, double noise)
 {
-	Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low,
-					centre = Eigen::Vector3d::Zero();
-	const auto vectorOf = [](const Point3& p) { return Eigen::Vector3d::Map(p.data()); };
-	for (const Point3& p : positions) {
-		low = low.cwiseMin(vectorOf(p));
-		high = high.cwiseMax(vectorOf(p));
-		centre += vectorOf(p) / positions.size();
-	}
-	Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+	Point3 centroid{0, 0, 0};
 	for (const Point3& p : positions)
-		covariance += (vectorOf(p) - centre) * (vectorOf(p) - centre).transpose();
-	const Eigen::Matrix3d axes =
-		Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+		centroid += p / positions.size();
 	std::vector<Plane> planes;
-	for (int k = 0; k < 3; ++k) {
-		const Eigen::Vector3d n = Eigen::Vector3d::Unit(k);
-		for (const double offset : {0.0, 0.5 * (low[k] + high[k]), centre[k]})
-			planes.push_back({{n[0], n[1], n[2]}, offset});
-	}
-	for (int k = 2; k >= 0; --k) {
-		const Eigen::Vector3d n = axes.col(k);
-		planes.push_back({{n[0], n[1], n[2]}, n.dot(centre)});
+	const auto add = [&](const Point3& direction) {
+		if (const double size = length(direction); size > noise) {
+			const Point3 normal = direction / size;
+			planes.push_back({normal, dot(normal, centroid)});
+		}
+	};
+	const auto firstLargest = [&](const auto& size) {
+		double largest = 0.0;
+		for (const Point3& p : positions)
+			largest = std::max(largest, size(p));
+		return *std::find_if(positions.begin(), positions.end(), [&](const Point3& p) {
+			return size(p) >= largest - noise;
+		});
+	};
+	const auto fromCentroid = [&](const Point3& p) { return distance(p, centroid); };
+	const Point3 v = firstLargest(fromCentroid), axis = v - centroid;
+	const Point3 w = firstLargest([&](const Point3& p) {
+		return length(cross(axis, p - centroid)) / std::max(length(axis), noise);
+	});
+	const auto addThoseTo = [&](const Point3& from, const Point3& fixed) {
+		for (const Point3& p : positions)
+			if (planes.size() < kMaxPlanes &&
+				std::abs(fromCentroid(p) - fromCentroid(from)) <= noise &&
+				std::abs(distance(p, fixed) - distance(from, fixed)) <= noise)
+				add(p - from);
+	};
+	addThoseTo(v, centroid);
+	addThoseTo(w, v);
+	add(cross(axis, w - centroid));
+	for (std::size_t k = 0; k < 3; ++k) {
+		const auto [low, high] = std::minmax_element(
+			positions.begin(), positions.end(), [&](const Point3& p, const Point3& q) {
+				return p[k] < q[k];
+			});
+		Point3 normal{0, 0, 0};
+		normal[k] = 1.0;
+		for (const double offset : {0.0, 0.5 * ((*low)[k] + (*high)[k])})
+			planes.push_back({normal, offset});
 	}
 	return planes;
 }
@@ -209,8 +235,9 @@ std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface)
 	double length = 0.0;
 	for (const double l : surface.lengths)
 		length += l / surface.lengths.size();
-	const Nearest nearest(surface.positions, kMirrorNoise * length);
-	for (const Plane& plane : planesToTry(surface.positions)) {
+	const double noise = kMirrorNoise * length;
+	const Nearest nearest(surface.positions, noise);
+	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
 		mirror->image = imagesAcross(plane, surface, nearest);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
