@@ -30,7 +30,7 @@ def invariants(path):
     genus, loops = shape["genus"], shape["number_holes"]
     if (genus, loops) == (0, 0):
         return {"genus": genus, "boundary_loops": loops}
-    target = {(0, 1): "Rectangle", (0, 2): "Flat everywhere"}.get((genus, loops), "Automatic")
+    target = {(0, 1): "Rectangle", (0, 2): "Flat everywhere"}.get((genus, loops), "Placed cones")
     result = flatten(documents, target_curvature=target).results
     found = {"genus": genus, "boundary_loops": loops}
     if "period_matrix" in result:

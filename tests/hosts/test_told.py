@@ -82,9 +82,12 @@ class FreeBoundary(Told):
     def test_kept_without_a_finish(self):
         documents = mesh_set(meshes.hill())
         returned = run(documents, finish="None", normalize_uv=False, padding=0)
+        # Both ends of an edge of a fourteenth are floats, half a step of 2^-23 below 2 off in each coordinate.
+        self.assertLess(numpy.abs(documents.current_mesh().wedge_tex_coord_matrix()).max(), 2.0)
+        rounding = 14 * math.sqrt(2) * 2.0 ** -23
         for key, extreme in (("boundary_ratio_min", min), ("boundary_ratio_max", max)):
-            self.assertAlmostEqual(returned[key], 1.0, delta=1e-6)
-            self.assertAlmostEqual(extreme(self.ratios(documents)), 1.0, delta=1e-6)
+            self.assertAlmostEqual(returned[key], 1.0, delta=rounding)
+            self.assertAlmostEqual(extreme(self.ratios(documents)), 1.0, delta=rounding)
 
     def test_told_after_the_finish(self):
         documents = mesh_set(meshes.hill(8))
@@ -164,7 +167,10 @@ class Layer(Told):
         self.assertIn("matrix of the layer", page)
 
     def test_turned_layer_is_the_same(self):
-        plain, turned = mesh_set(meshes.hill()), mesh_set(meshes.hill())
+        # Without symmetry, whose equal places for a cone rounding would choose from.
+        mesh = meshes.grid(14, 14, lambda s, t: (
+            s, 1.2 * t, 0.3 * math.sin(math.pi * s ** 1.3) * math.sin(math.pi * t ** 0.7)))
+        plain, turned = mesh_set(mesh), mesh_set(mesh)
         turned.compute_matrix_from_translation_rotation_scale(rotationx=40.0, freeze=False)
         returned, page = self.told(turned)
         self.assertAlmostEqual(returned["qc_mean"], run(plain)["qc_mean"], delta=1e-6)

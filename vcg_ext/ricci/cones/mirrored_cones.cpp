@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mirrored_cones.h"
 
+#include "../base/tolerances.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -93,7 +95,7 @@ std::vector<Vertex> mirrorCones(
 			take(next);
 			const bool isGood =
 				request.goal() != ConeGoal::Spread || model.distortion() <= wanted.distortion;
-			if (const double c = cost(); isGood && c < least) {
+			if (const double c = cost(); isGood && c < (1.0 - kTiny) * least) {
 				least = c;
 				best = std::move(next);
 			}

@@ -4,6 +4,7 @@
 #include "../base/graphs.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ private:
 			if (isInPlane(e)) {
 				const Edge run = runs.find(e);
 				cost[run] += m_cost[e];
-				if (cost[run] > cost[most])
+				if (cost[run] > (1.0 + kTiny) * cost[most]) // of equal ones the first
 					most = run;
 			}
 		for (const Edge e : m_t.edges())
@@ -190,7 +191,7 @@ std::optional<CutGraph> mirroredCut(
 		if (isCut.empty())
 			return;
 		CutGraph cut = cutGraphOf(t, cost, cones, std::move(isCut));
-		if (!best || cut.length < best->length)
+		if (!best || cut.length < (1.0 - kTiny) * best->length)
 			best = std::move(cut);
 	};
 	take(cuts.cut(Vertex()));
