@@ -153,7 +153,7 @@ struct MirrorSymmetry
 	}
 };
 
-/// Finds one of a surface in space: the first of its planes by the numbers of vertices, whatever its pose, if it mirrors all
+/// Finds one of a surface in space: of its planes that with the shortest edges in sum, whatever the pose, if it mirrors all
 /// vertices; else one normal to an axis of the coordinates.
 /// \return null if there is none
 std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface);

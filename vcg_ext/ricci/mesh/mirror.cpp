@@ -2,6 +2,7 @@
 #include "component.h"
 
 #include "../base/graphs.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +30,9 @@ struct Plane
 	Point3 mirrored(const Point3& p) const { return p + (-2.0 * height(p)) * normal; }
 };
 
-/// So many planes are tried: on a round body there may be one for each two vertices.
+/// So many planes are tried, until so many mirror the surface: on a round body there may be one for each two vertices.
 constexpr std::size_t kMaxPlanes = 1000;
+constexpr int kMaxFound = 8;
 
 /// Planes through the centroid c of the vertices: every one that mirrors them all takes the vertex v farthest from c to one
 /// as far away, or leaves it there and takes another one, w, to one as far from c and from v, or leaves that there, too.
@@ -237,15 +239,28 @@ std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface)
 		length += l / surface.lengths.size();
 	const double noise = kMirrorNoise * length;
 	const Nearest nearest(surface.positions, noise);
+	std::shared_ptr<MirrorSymmetry> best;
+	double least = kInfinity;
+	int found = 0;
 	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
 		mirror->image = imagesAcross(plane, surface, nearest);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
-		mirrorEdges(surface.triangulation, *mirror);
-		return mirror;
+		double inPlane = 0.0;
+		for (const Edge e : surface.triangulation.edges())
+			if (isInPlane(surface.triangulation, *mirror, e))
+				inPlane += surface.lengths[e];
+		if (inPlane < (1.0 - kTiny) * least) {
+			least = inPlane;
+			best = std::move(mirror);
+		}
+		if (++found == kMaxFound)
+			break;
 	}
-	return nullptr;
+	if (best)
+		mirrorEdges(surface.triangulation, *best);
+	return best;
 }
 
 } // namespace ricci
