@@ -122,5 +122,55 @@ TEST(Mirror, ImagesAreReflectionsAndPartsOnOneSideHaveNone)
 	EXPECT_FALSE(findMirror(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles)));
 }
 
+/// Where one vertex is so far away that all others are near each other for the mean edge.
+TEST(Mirror, ImagesAreTheNearestVertices)
+{
+	SurfaceMesh mesh = sphere(12, 16);
+	Random random(6);
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			x += random.real(-0.01, 0.01);
+	mesh.positions[0] = {0.0, 0.0, 1e5};
+	const EmbeddedSurface surface =
+		embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+	const auto mirror = findMirror(surface);
+	ASSERT_TRUE(mirror);
+	int found = 0;
+	for (const Vertex v : mirror->image.indices()) {
+		const Vertex w = mirror->image[v];
+		if (!w.isValid() || w == v)
+			continue;
+		++found;
+		const Point3 &p = surface.positions[v], reflected{-p[0], p[1], p[2]};
+		for (const Point3& q : surface.positions)
+			EXPECT_LE(distance(reflected, surface.positions[w]), distance(reflected, q));
+	}
+	EXPECT_GT(found, 100);
+}
+
+TEST(Mirror, VerticesOfAHoleThatIsClosedAreImagesOfSuch)
+{
+	constexpr int kAround = 16, kEye = 1 + kAround * 6 + 2;
+	const SurfaceMesh ball = withoutStars(sphere(12, kAround), {kEye, kEye + 4});
+	const EmbeddedSurface surface =
+		embeddedSurface(VertexArray<Point3>(ball.positions), ball.triangles);
+	ASSERT_EQ(surface.topology.type.boundaryLoops, 2);
+	VertexArray<char> onHole(surface.positions.size(), 0);
+	for (const Vertex v : onHole.indices())
+		onHole[v] = surface.topology.boundary[v] && surface.positions[v][0] < 0.0;
+	const auto both = findMirror(surface), one = findMirror(surface, onHole);
+	ASSERT_TRUE(both);
+	ASSERT_TRUE(one);
+	int otherwise = 0;
+	for (const Vertex v : onHole.indices()) {
+		if (const Vertex w = both->image[v]; w.isValid())
+			otherwise += onHole[v] != onHole[w];
+		if (const Vertex w = one->image[v]; w.isValid()) {
+			EXPECT_EQ(onHole[v], onHole[w]);
+		}
+	}
+	EXPECT_GT(otherwise, 0);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -155,8 +155,10 @@ struct MirrorSymmetry
 
 /// Finds one of a surface in space: across the planes normal to the axes of the coordinates, x first, through 0, the
 /// middle of the extent and the centroid of the vertices; and across those normal to the vertices' principal axes.
+/// \param onHole see FlowDomain; of two holes that are images of each other, one alone may be closed
 /// \return null if there is none
-std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface);
+std::shared_ptr<const MirrorSymmetry>
+findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole = {});
 
 } // namespace ricci
 

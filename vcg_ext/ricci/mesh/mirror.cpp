@@ -2,6 +2,7 @@
 #include "component.h"
 
 #include "../base/graphs.h"
+#include "../base/task.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -58,7 +59,8 @@ std::vector<Plane> planesToTry(const VertexArray<Point3>& positions)
 	return planes;
 }
 
-/// Finds the vertex nearest to a place.
+/// Finds the vertex nearest to a place, in boxes that are divided at the median of their longest side: however many vertices
+/// lie within the noise, where a few edges are much longer than the others, most are left out.
 class Nearest
 {
 public:
@@ -67,8 +69,8 @@ public:
 			m_positions(positions), m_noise(noise)
 	{
 		for (const Vertex v : positions.indices())
-			m_order.emplace_back(along(positions[v]), v);
-		std::sort(m_order.begin(), m_order.end());
+			m_order.push_back(v);
+		build(m_order.begin(), m_order.end());
 	}
 
 	/// None if there is none.
@@ -76,39 +78,106 @@ public:
 	{
 		Vertex nearest;
 		double least = m_noise;
-		for (auto i = std::lower_bound(
-				 m_order.begin(), m_order.end(), std::pair(along(place) - m_noise, Vertex(0)));
-			 i != m_order.end() && i->first <= along(place) + m_noise;
-			 ++i)
-			if (const double d = distance(m_positions[i->second], place); d < least) {
-				least = d;
-				nearest = i->second;
-			}
+		search(0, place, nearest, least);
 		return nearest;
 	}
 
 private:
-	/// Along a line of length 1 that is parallel to nothing in particular, so that few vertices are at one place.
-	static double along(const Point3& p) { return dot({0.5773, 0.2113, 0.7887}, p); }
+	using Place = std::vector<Vertex>::iterator;
+
+	/// Behind it come those of the half below, then those of the half above.
+	struct Node
+	{
+		Point3 low, high;
+		Place first, last;     // of its vertices
+		std::size_t above = 0; // node; 0: it is not divided
+	};
+
+	static constexpr int kUndivided = 8; // vertices
+
+	void build(Place first, Place last)
+	{
+		const std::size_t number = m_nodes.size();
+		Node node{m_positions[*first], m_positions[*first], first, last};
+		std::size_t axis = 0;
+		for (const std::size_t k : {0, 1, 2}) {
+			for (Place v = first; v != last; ++v) {
+				node.low[k] = std::min(node.low[k], m_positions[*v][k]);
+				node.high[k] = std::max(node.high[k], m_positions[*v][k]);
+			}
+			if (node.high[k] - node.low[k] > node.high[axis] - node.low[axis])
+				axis = k;
+		}
+		m_nodes.push_back(node);
+		const bool isOnePlace = !(node.low[axis] < node.high[axis]);
+		if (isOnePlace || last - first <= kUndivided) {
+			std::sort(first, last);
+			if (isOnePlace) // the first of its vertices stands for all
+				m_nodes[number].last = first + 1;
+			return;
+		}
+		const Place middle = first + (last - first) / 2;
+		std::nth_element(first, middle, last, [&](Vertex v, Vertex w) {
+			const double x = m_positions[v][axis], y = m_positions[w][axis];
+			return x != y ? x < y : v < w;
+		});
+		build(first, middle);
+		m_nodes[number].above = m_nodes.size();
+		build(middle, last);
+	}
+
+	double distanceTo(const Node& node, const Point3& place) const
+	{
+		Point3 nearest;
+		for (const std::size_t k : {0, 1, 2})
+			nearest[k] = std::max(node.low[k], std::min(place[k], node.high[k]));
+		return distance(nearest, place);
+	}
+
+	void search(std::size_t number, const Point3& place, Vertex& nearest, double& least) const
+	{
+		const Node& node = m_nodes[number];
+		if (!(distanceTo(node, place) < least))
+			return;
+		if (node.above == 0) {
+			for (Place v = node.first; v != node.last; ++v)
+				if (const double d = distance(m_positions[*v], place); d < least) {
+					least = d;
+					nearest = *v;
+				}
+			return;
+		}
+		std::size_t nearer = number + 1, other = node.above;
+		if (distanceTo(m_nodes[other], place) < distanceTo(m_nodes[nearer], place))
+			std::swap(nearer, other);
+		search(nearer, place, nearest, least);
+		search(other, place, nearest, least);
+	}
 
 	const VertexArray<Point3>& m_positions;
 	double m_noise;
-	std::vector<std::pair<double, Vertex>> m_order;
+	std::vector<Vertex> m_order;
+	std::vector<Node> m_nodes;
 };
 
 /// A plane is tried on so many vertices first: it is none if a quarter of them have no image.
 constexpr int kFirstTried = 64;
 
 /// [vertex] The vertex nearest to its image across \p plane; none where that is not mutual, or one of them alone on the
-/// boundary.
+/// boundary or on a hole that is closed.
 /// \return empty if too many have none
-VertexArray<Vertex>
-imagesAcross(const Plane& plane, const EmbeddedSurface& surface, const Nearest& nearestTo)
+VertexArray<Vertex> imagesAcross(
+	const Plane& plane,
+	const EmbeddedSurface& surface,
+	const VertexArray<char>& onHole,
+	const Nearest& nearestTo)
 {
 	const VertexArray<char>& boundary = surface.topology.boundary;
 	const auto nearest = [&](Vertex v) {
 		const Vertex w = nearestTo(plane.mirrored(surface.positions[v]));
-		return w.isValid() && boundary[w] == boundary[v] ? w : Vertex();
+		const bool isLike =
+			w.isValid() && boundary[w] == boundary[v] && (onHole.empty() || onHole[w] == onHole[v]);
+		return isLike ? w : Vertex();
 	};
 	const int count = boundary.size(), step = std::max(1, count / kFirstTried);
 	int missing = 0;
@@ -117,8 +186,10 @@ imagesAcross(const Plane& plane, const EmbeddedSurface& surface, const Nearest& 
 	if (4 * step * missing > count)
 		return {};
 	VertexArray<Vertex> image(count);
-	for (const Vertex v : image.indices())
+	for (const Vertex v : image.indices()) {
+		checkpointNowAndThen(positionOf(v));
 		image[v] = nearest(v);
+	}
 	missing = 0;
 	for (const Vertex v : image.indices()) {
 		if (image[v].isValid() && image[image[v]] != v)
@@ -204,7 +275,8 @@ void mirrorEdges(const Triangulation& t, MirrorSymmetry& mirror)
 
 } // namespace
 
-std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface)
+std::shared_ptr<const MirrorSymmetry>
+findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 {
 	double length = 0.0;
 	for (const double l : surface.lengths)
@@ -212,7 +284,7 @@ std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface)
 	const Nearest nearest(surface.positions, kMirrorNoise * length);
 	for (const Plane& plane : planesToTry(surface.positions)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
-		mirror->image = imagesAcross(plane, surface, nearest);
+		mirror->image = imagesAcross(plane, surface, onHole, nearest);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
 		mirrorEdges(surface.triangulation, *mirror);
