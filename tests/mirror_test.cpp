@@ -167,5 +167,27 @@ TEST(Mirror, SeamsOfFinishedChartsAreMirrored)
 	EXPECT_GE(mirroredShare(surface, map), 0.9);
 }
 
+/// Half a torus, whose ends are images of each other: of two holes as long one is capped, and the other one is boundary.
+TEST(Mirror, OneOfTwoEqualHolesIsCapped)
+{
+	SurfaceMesh mesh = torus(1.0, 0.4, 18, 8);
+	mesh.triangles.erase(
+		std::remove_if(
+			mesh.triangles.begin(),
+			mesh.triangles.end(),
+			[&](const Triangle& t) {
+				return std::any_of(
+					t.begin(), t.end(), [&](int v) { return mesh.positions[at(v)][0] < 0.0; });
+			}),
+		mesh.triangles.end());
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	options.holes = Holes::Capped;
+	const FlatResult map = run(mesh, options);
+	EXPECT_EQ(map.report.boundaryLoops, 2);
+	EXPECT_EQ(map.report.cappedHoles, 1);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -55,7 +55,7 @@ TargetRequest targetRequest(
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
 	if (options.method == Method::IntrinsicFlips && component.lengths.empty() && !component.hasSeam)
-		request.mirror = findMirror(domain.surface);
+		request.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }
 

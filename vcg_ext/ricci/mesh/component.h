@@ -155,8 +155,10 @@ struct MirrorSymmetry
 
 /// Finds one of a surface in space: of its planes that with the shortest edges in sum, whatever the pose, if it mirrors all
 /// vertices; else one normal to an axis of the coordinates.
+/// \param onHole see FlowDomain; of two holes that are images of each other, one alone may be closed
 /// \return null if there is none
-std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface);
+std::shared_ptr<const MirrorSymmetry>
+findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole = {});
 
 } // namespace ricci
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "component.h"
 
+#include "../base/box_tree.h"
 #include "../base/graphs.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace ricci {
 
 namespace {
 
-/// How far a vertex may be from the image of another, in mean lengths of edges: less than a person would see, and far
+/// How far a vertex may be from the image of another, in medians of the lengths of edges: less than a person would see, and far
 /// more than the rounding of coordinates.
 constexpr double kMirrorNoise = 1e-3;
 
@@ -86,17 +88,15 @@ std::vector<Plane> planesToTry(const VertexArray<Point3>& positions, double nois
 	return planes;
 }
 
-/// Finds the vertex nearest to a place.
+/// Finds the vertex nearest to a place, in a tree of what is within the noise of the vertices, drawn in a plane that is
+/// parallel to nothing in particular.
 class Nearest
 {
 public:
 	/// \param noise how far it is away at most
 	Nearest(const VertexArray<Point3>& positions, double noise) :
-			m_positions(positions), m_noise(noise)
+			m_positions(positions), m_noise(noise), m_tree(boxes(positions, noise))
 	{
-		for (const Vertex v : positions.indices())
-			m_order.emplace_back(along(positions[v]), v);
-		std::sort(m_order.begin(), m_order.end());
 	}
 
 	/// None if there is none.
@@ -104,39 +104,58 @@ public:
 	{
 		Vertex nearest;
 		double least = m_noise;
-		for (auto i = std::lower_bound(
-				 m_order.begin(), m_order.end(), std::pair(along(place) - m_noise, Vertex(0)));
-			 i != m_order.end() && i->first <= along(place) + m_noise;
-			 ++i)
-			if (const double d = distance(m_positions[i->second], place); d < least) {
-				least = d;
-				nearest = i->second;
-			}
+		m_tree.boxesAround(
+			drawn(place),
+			[&](int i) {
+				const double d = distance(m_positions[Vertex(i)], place);
+				if (d < least || (d == least && nearest.isValid() && Vertex(i) < nearest)) {
+					least = d;
+					nearest = Vertex(i);
+				}
+			},
+			[](int) { return false; });
 		return nearest;
 	}
 
 private:
-	/// Along a line of length 1 that is parallel to nothing in particular, so that few vertices are at one place.
-	static double along(const Point3& p) { return dot({0.5773, 0.2113, 0.7887}, p); }
+	static Point2 drawn(const Point3& p)
+	{
+		return {dot({0.5773, 0.2113, 0.7887}, p), dot({-0.6533, 0.7071, 0.2706}, p)};
+	}
+
+	static std::vector<Box2> boxes(const VertexArray<Point3>& positions, double noise)
+	{
+		std::vector<Box2> result;
+		for (const Point3& p : positions) {
+			const Point2 middle = drawn(p), reach{noise, noise};
+			result.push_back({middle - reach, middle + reach});
+		}
+		return result;
+	}
 
 	const VertexArray<Point3>& m_positions;
 	double m_noise;
-	std::vector<std::pair<double, Vertex>> m_order;
+	BoxTree m_tree;
 };
 
 /// A plane is tried on so many vertices first: it is none if a quarter of them have no image.
 constexpr int kFirstTried = 64;
 
 /// [vertex] The vertex nearest to its image across \p plane; none where that is not mutual, or one of them alone on the
-/// boundary.
+/// boundary or on a hole that is closed.
 /// \return empty if too many have none
-VertexArray<Vertex>
-imagesAcross(const Plane& plane, const EmbeddedSurface& surface, const Nearest& nearestTo)
+VertexArray<Vertex> imagesAcross(
+	const Plane& plane,
+	const EmbeddedSurface& surface,
+	const VertexArray<char>& onHole,
+	const Nearest& nearestTo)
 {
 	const VertexArray<char>& boundary = surface.topology.boundary;
 	const auto nearest = [&](Vertex v) {
 		const Vertex w = nearestTo(plane.mirrored(surface.positions[v]));
-		return w.isValid() && boundary[w] == boundary[v] ? w : Vertex();
+		const bool isLike =
+			w.isValid() && boundary[w] == boundary[v] && (onHole.empty() || onHole[w] == onHole[v]);
+		return isLike ? w : Vertex();
 	};
 	const int count = boundary.size(), step = std::max(1, count / kFirstTried);
 	int missing = 0;
@@ -145,8 +164,10 @@ imagesAcross(const Plane& plane, const EmbeddedSurface& surface, const Nearest& 
 	if (4 * step * missing > count)
 		return {};
 	VertexArray<Vertex> image(count);
-	for (const Vertex v : image.indices())
+	for (const Vertex v : image.indices()) {
+		checkpointNowAndThen(positionOf(v));
 		image[v] = nearest(v);
+	}
 	missing = 0;
 	for (const Vertex v : image.indices()) {
 		if (image[v].isValid() && image[image[v]] != v)
@@ -232,19 +253,20 @@ void mirrorEdges(const Triangulation& t, MirrorSymmetry& mirror)
 
 } // namespace
 
-std::shared_ptr<const MirrorSymmetry> findMirror(const EmbeddedSurface& surface)
+std::shared_ptr<const MirrorSymmetry>
+findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 {
-	double length = 0.0;
-	for (const double l : surface.lengths)
-		length += l / surface.lengths.size();
-	const double noise = kMirrorNoise * length;
+	std::vector<double> lengths = surface.lengths.values();
+	const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+	std::nth_element(lengths.begin(), median, lengths.end());
+	const double noise = kMirrorNoise * *median;
 	const Nearest nearest(surface.positions, noise);
 	std::shared_ptr<MirrorSymmetry> best;
 	double least = kInfinity;
 	int found = 0;
 	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
-		mirror->image = imagesAcross(plane, surface, nearest);
+		mirror->image = imagesAcross(plane, surface, onHole, nearest);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
 		double inPlane = 0.0;
