@@ -39,6 +39,17 @@ Holes holesOf(const Options& options)
 /// map is to cost little, there is one: of some 60 meshes a second changed one, by 0.2 %.
 constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 
+/// Whether cones and seams are to be mirrored: where they are chosen for the least cost alone, which tells what that costs.
+bool mayMirror(const Component& component, const TargetRequest& request)
+{
+	const TargetOptions& options = request.options;
+	return request.measuresAreas && request.goal() == ConeGoal::LeastCost &&
+		   options.cones.rounding == ConeRounding::Free &&
+		   (options.target == TargetCurvature::Automatic ||
+			options.target == TargetCurvature::PlacedCones) &&
+		   component.lengths.empty() && !component.hasSeam;
+}
+
 /// What the target of a component is chosen from.
 TargetRequest targetRequest(
 	const Component& component,
@@ -54,7 +65,7 @@ TargetRequest targetRequest(
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
-	if (options.method == Method::IntrinsicFlips && component.lengths.empty() && !component.hasSeam)
+	if (mayMirror(component, request))
 		request.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }

@@ -273,7 +273,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	if (mirror && goalOf(options.cones) == ConeGoal::LeastCost && isMirrored(map, *mirror)) {
+	if (mirror && isMirrored(map, *mirror)) {
 		// No other map costs less than is expected.
 		if (costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected)
 			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));

@@ -27,7 +27,8 @@ struct TargetRequest : TargetInput
 	/// and cones at any.
 	VertexArray<int> vertexNumbers = {};
 
-	/// Placed cones are mirrored by it where that costs hardly more; null: no such wish. Its vertices are the first ones.
+	/// Cones that are placed for the least cost are mirrored by it where that costs hardly more; null: no such wish. Its
+	/// vertices are the first ones.
 	std::shared_ptr<const MirrorSymmetry> mirror = nullptr;
 
 	ConeGoal goal() const { return goalOf(options.cones); }

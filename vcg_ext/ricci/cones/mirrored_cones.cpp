@@ -80,22 +80,18 @@ std::vector<Vertex> mirrorCones(
 			vertices.push_back(cone);
 		setCones(std::move(vertices), model);
 	};
-	const ConeOptions& wanted = request.options.cones;
 	ConesOfSurface own;
 	for (const Vertex v : model.vertices())
 		own[v] = roots.empty() ? v : roots[v];
 	ConesOfSurface best = own;
-	if (request.mirror && wanted.rounding == ConeRounding::Free &&
-		request.goal() != ConeGoal::Count) {
+	if (request.mirror) {
 		double least = cost() + kMirrorPrice * expectedEnergy(0.0);
 		for (const bool isAbove : {false, true}) {
 			ConesOfSurface next = ofHalf(*request.mirror, isAbove, own, place);
 			if (next.empty() || static_cast<int>(next.size()) < model.minSize())
 				continue;
 			take(next);
-			const bool isGood =
-				request.goal() != ConeGoal::Spread || model.distortion() <= wanted.distortion;
-			if (const double c = cost(); isGood && c < (1.0 - kTiny) * least) {
+			if (const double c = cost(); c < (1.0 - kTiny) * least) {
 				least = c;
 				best = std::move(next);
 			}

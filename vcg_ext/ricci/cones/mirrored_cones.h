@@ -14,7 +14,7 @@ namespace ricci {
 void setCones(std::vector<Vertex> cones, ConeModel& model);
 
 /// Where a surface is its own mirror image, puts the cones of one of its halves and their images in place of those of
-/// \p model, if that costs hardly more (kMirrorPrice). Not where their number is given, or curvatures are rounded.
+/// \p model, if that costs hardly more (kMirrorPrice).
 /// \param sites of \p model
 /// \param roots [vertex of \p model] the vertex of the surface that it stands for; empty: itself
 /// \param positions [vertex of the surface]
