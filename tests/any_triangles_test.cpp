@@ -2,6 +2,7 @@
 // Meshes that are not oriented manifolds, at the façade. Where a mesh is developable between its cuts,
 // its map is known: an isometry.
 #include "support/expect.h"
+#include "support/random.h"
 #include "support/written.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
+#include "support/shapes.h"
 
 #include <ricci/mesh/triangulation.h>
 
