@@ -277,7 +277,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		// No other map costs less than is expected.
 		if (costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected)
 			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
-		expected = kInfinity; // this promise has been looked at
+		else
+			expected = kInfinity; // it costs no more than mirrors may
 	}
 	unfoldIfPoor(costOf(map).total());
 	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
