@@ -28,9 +28,9 @@ public:
 		const EdgeArray<double>& cost,
 		const VertexArray<char>& cones) :
 			m_t(t),
-			m_mirror(mirror), m_cost(cost), m_cones(cones), m_inHalf(t.vertexCount()),
-			m_loop(t.vertexCount())
+			m_mirror(mirror), m_cost(cost), m_cones(cones), m_loop(t.vertexCount())
 	{
+		VertexArray<Vertex> inHalf(t.vertexCount());
 		std::vector<Triangle> triangles;
 		for (const Face f : t.faces()) {
 			if (mirror.isAboveFace(t, f))
@@ -38,11 +38,11 @@ public:
 			triangles.emplace_back();
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Vertex v = t.vertices(f)[k];
-				if (!m_inHalf[v].isValid()) {
-					m_inHalf[v] = Vertex(m_vertex.size());
+				if (!inHalf[v].isValid()) {
+					inHalf[v] = Vertex(m_vertex.size());
 					m_vertex.push_back(v);
 				}
-				triangles.back()[k] = m_inHalf[v].number();
+				triangles.back()[k] = inHalf[v].number();
 			}
 		}
 		m_half = Triangulation(m_vertex.size(), triangles);
@@ -164,7 +164,6 @@ private:
 	const MirrorSymmetry& m_mirror;
 	const EdgeArray<double>& m_cost;
 	const VertexArray<char>& m_cones;
-	VertexArray<Vertex> m_inHalf;
 	DisjointSetsOf<Vertex> m_loop; // the loops and lines in the plane
 	Triangulation m_half;          // that is number 0
 	VertexArray<Vertex> m_vertex;  // [vertex of the half]
