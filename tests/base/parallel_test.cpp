@@ -8,7 +8,9 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -34,6 +36,55 @@ TEST(InParallel, EveryElementIsInOnePart)
 					minPart);
 				EXPECT_EQ(std::count(times.begin(), times.end(), 1), count);
 			}
+}
+
+/// While a crew lives, loops are helped by the same threads.
+TEST(Crew, ItsThreadsAreKept)
+{
+	std::mutex mutex;
+	std::set<std::thread::id> seen;
+	const Crew crew;
+	for (int run = 0; run < 100; ++run)
+		inParallel(
+			30,
+			3,
+			[&](int, int) {
+				const std::lock_guard<std::mutex> lock(mutex);
+				seen.insert(std::this_thread::get_id());
+			},
+			1);
+	EXPECT_LE(seen.size(), 3U);
+	EXPECT_EQ(seen.count(std::this_thread::get_id()), 1U);
+}
+
+/// The only thread that could help is held: a loop that waited for it would not end.
+TEST(Crew, NobodyWaitsForHelpThatHasNotBegun)
+{
+	std::atomic<bool> begun{false}, released{false};
+	const Crew crew;
+	const auto hold = [&] {
+		begun = true;
+		while (!released)
+			std::this_thread::yield();
+	};
+	Crew::Offer held(1, hold);
+	while (!begun)
+		std::this_thread::yield();
+	std::vector<int> times(1000, 0);
+	const auto count = [&](int first, int last) {
+		for (int i = first; i < last; ++i)
+			++times[static_cast<std::size_t>(i)];
+	};
+	inParallel(1000, 2, count, 1);
+	EXPECT_EQ(std::count(times.begin(), times.end(), 1), 1000);
+	int aside = 0;
+	besides(
+		2, [] {}, [&] { ++aside; });
+	EXPECT_EQ(aside, 1);
+	EXPECT_FALSE(held.end(std::chrono::milliseconds(1)));
+	released = true;
+	while (!held.end(std::chrono::milliseconds(1)))
+		std::this_thread::yield();
 }
 
 /// Calls \p update at every update.

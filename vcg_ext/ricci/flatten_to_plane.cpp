@@ -363,12 +363,17 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 		threads,
 		[&] {
 			map = layOut(component, domain, options, flow, cut); // 4.3
-			finish(domain, options, flow.target, cut.cones, map);
 		},
 		[&] {
 			periods = measurePeriods(domain.surface.topology.type, flow);
 			requireMetric(flow, domain.solved().topology.boundary);
 		});
+	finish(
+		domain,
+		options,
+		flow.target,
+		cut.cones,
+		map); // by itself: it takes as much memory as the periods
 	const bool mayFlip = map.finished.moved > 0 || isBent(flow, log, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
 	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);

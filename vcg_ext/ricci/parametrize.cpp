@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parametrize.h"
 
+#include "base/crew.h"
 #include "base/numbers.h"
 #include "base/task.h"
 #include "charts/pack.h"
@@ -359,6 +360,7 @@ Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 Parametrization
 parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& asked)
 {
+	const Crew crew;
 	checkOptions(asked);
 	const bool keepsMap = asked.charts == Charts::AsGiven;
 	const Options options = keepsMap ? optionsToKeep(mesh, asked) : asked;
@@ -384,6 +386,7 @@ parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Op
 Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
+	const Crew crew;
 	checkOptions(options);
 	if (!mesh.lengths.empty() &&
 		(options.output == OutputTriangulation::CommonRefinement || options.sharpAngle < kPi))

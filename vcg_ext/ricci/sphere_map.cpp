@@ -2,6 +2,7 @@
 #include "sphere_map.h"
 #include "base/task.h"
 
+#include "base/crew.h"
 #include "base/numbers.h"
 #include "base/tolerances.h"
 #include "error.h"
@@ -324,6 +325,7 @@ void placeVertices(
 
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 {
+	const Crew crew;
 	if (!mesh.lengths.empty())
 		throw InvalidOption(InvalidOption::WithoutPositions);
 	std::vector<std::string> notes;

@@ -2,19 +2,15 @@
 #ifndef RICCI_PARALLEL_H
 #define RICCI_PARALLEL_H
 
+#include "crew.h"
 #include "task.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <mutex>
-#include <new>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 namespace ricci {
 
@@ -39,31 +35,27 @@ inline int threadsFor(std::int64_t triangles)
 /// a time. The parts must be independent and \p work must not throw. The parts'
 /// bounds vary with the number of threads: a result that does not must not
 /// depend on them, so sums over elements are not for here.
-/// \param minPart elements that are worth a thread
+/// \param minPart elements that are worth a thread's help
 template<class Work>
-void inParallel(int count, int threads, const Work& work, int minPart = 16384)
+void inParallel(int count, int threads, const Work& work, int minPart = 8192)
 {
-	const int parts = std::clamp(count / minPart, 1, std::max(threads, 1));
+	// More parts than threads, so that one that comes late or is interrupted does less.
+	const int parts = threads > 1 ? std::clamp(count / minPart, 1, 4 * threads) : 1;
+	if (parts == 1) {
+		work(0, count);
+		return;
+	}
 	const auto bound = [&](int part) {
 		return static_cast<int>(std::int64_t(count) * part / parts);
 	};
-	std::vector<std::thread> others;
-	int own = 1; // parts from here on have no thread
-	try {
-		others.reserve(static_cast<std::size_t>(parts - 1));
-		for (; own < parts; ++own)
-			others.emplace_back(
-				[&work, first = bound(own), last = bound(own + 1)] { work(first, last); });
-	}
-	catch (const std::system_error&) { // no more threads to be had
-	}
-	catch (const std::bad_alloc&) { // nor memory for one
-	}
-	work(0, bound(1));
-	if (own < parts)
-		work(bound(own), count);
-	for (std::thread& other : others)
-		other.join();
+	std::atomic<int> next{0};
+	const auto workOnParts = [&] {
+		for (int i = next++; i < parts; i = next++)
+			work(bound(i), bound(i + 1));
+	};
+	const Crew crew;
+	const Crew::Offer offer(std::min(threads, parts) - 1, workOnParts);
+	workOnParts();
 }
 
 /// A thread that waits for others calls checkpoint() after each such time.
@@ -91,41 +83,17 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 				thrown = std::current_exception();
 		}
 	};
-	std::mutex mutex; // for atWork
-	std::condition_variable isLess;
-	int atWork = 0;
-	const auto asHelper = [&] {
-		unlessEnded(help, ofHelp);
-		const std::lock_guard<std::mutex> lock(mutex);
-		--atWork;
-		isLess.notify_one();
-	};
-	// Not std::async(): that of libc++ waits for ever where a thread cannot be started.
-	std::vector<std::thread> others;
-	try {
-		others.reserve(static_cast<std::size_t>(std::max(helpers, 0)));
-		for (int i = 0; i < helpers; ++i) {
-			const std::lock_guard<std::mutex> lock(mutex);
-			others.emplace_back(asHelper);
-			++atWork;
-		}
+	const auto asHelper = [&] { unlessEnded(help, ofHelp); };
+	{
+		const Crew crew;
+		Crew::Offer offer(helpers, asHelper);
+		const auto runAndWait = [&] {
+			own();
+			while (!offer.end(kBetweenWaits))
+				checkpoint();
+		};
+		unlessEnded(runAndWait, ofOwn);
 	}
-	catch (const std::system_error&) { // no more threads to be had
-	}
-	catch (const std::bad_alloc&) { // nor memory for one
-	}
-	const auto runAndWait = [&] {
-		own();
-		std::unique_lock<std::mutex> lock(mutex);
-		while (!isLess.wait_for(lock, kBetweenWaits, [&] { return atWork == 0; })) {
-			lock.unlock();
-			checkpoint();
-			lock.lock();
-		}
-	};
-	unlessEnded(runAndWait, ofOwn);
-	for (std::thread& other : others)
-		other.join();
 	for (const std::exception_ptr& thrown : {ofOwn, ofHelp})
 		if (thrown)
 			std::rethrow_exception(thrown);

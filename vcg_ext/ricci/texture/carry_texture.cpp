@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "carry_texture.h"
 
+#include "../base/crew.h"
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
@@ -378,6 +379,7 @@ void carryTexture(
 	const PictureView<Sample>& result,
 	int threads)
 {
+	const Crew crew;
 	const std::vector<std::vector<int>> faces = facesOfPictures(mesh, pictures.size());
 	const std::vector<int> charts = oldCharts(mesh.faces);
 	std::vector<char> covered;
