@@ -3,6 +3,7 @@
 #define RICCI_BOX_TREE_H
 
 #include "indexed.h"
+#include "parallel.h"
 #include "points.h"
 
 #include <algorithm>
@@ -24,11 +25,12 @@ public:
 		for (const Box2& b : boxes)
 			items.push_back(
 				{{0.5 * (b.min[0] + b.max[0]), 0.5 * (b.min[1] + b.max[1])}, items.size()});
-		m_order.reserve(boxes.size());
-		m_boxes.reserve(boxes.size());
-		m_nodes.reserve(boxes.size());
-		if (!boxes.empty())
-			build(items, boxes, 0, items.size());
+		m_order.resize(boxes.size());
+		m_boxes.resize(boxes.size());
+		if (boxes.empty())
+			return;
+		m_nodes.resize(nodeCount(items.size()));
+		build(items, boxes, 0, items.size(), 0);
 	}
 
 	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
@@ -124,7 +126,7 @@ private:
 	struct Node
 	{
 		Box2 box;
-		int first, last; ///< in m_order
+		int first = 0, last = 0; ///< in m_order
 		int left = -1, right = -1;
 
 		bool isLeaf() const { return left < 0; }
@@ -136,18 +138,30 @@ private:
 		int number;
 	};
 
-	/// Appends the node of items[first .. last - 1] and those below it. \return its number
-	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last)
+	static constexpr int kLeaf = 4; // boxes
+	/// Boxes of which each half is worth a thread's help: a millisecond.
+	static constexpr int kWorthHelp = 16384;
+
+	/// Of a tree of so many boxes.
+	static int nodeCount(int boxes)
 	{
-		const int index = m_nodes.size();
-		m_nodes.push_back({Box2(), first, last});
-		if (last - first <= 4) { // boxes of a leaf
+		return boxes <= kLeaf ? 1 : 1 + nodeCount(boxes / 2) + nodeCount(boxes - boxes / 2);
+	}
+
+	/// Fills the node of items[first .. last - 1], number \p index, and those below it, which follow it.
+	/// \return the number after their last
+	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last, int index)
+	{
+		Node& node = m_nodes[index];
+		node.first = first;
+		node.last = last;
+		if (last - first <= kLeaf) {
 			for (int i = first; i < last; ++i) {
-				m_order.push_back(items[i].number);
-				m_boxes.push_back(boxes[positionOf(items[i].number)]);
-				m_nodes[index].box.add(m_boxes.back());
+				m_order[i] = items[i].number;
+				m_boxes[i] = boxes[positionOf(items[i].number)];
+				node.box.add(m_boxes[i]);
 			}
-			return index;
+			return index + 1;
 		}
 		Box2 centres;
 		for (int i = first; i < last; ++i)
@@ -162,14 +176,25 @@ private:
 				const double a = x.centre[axis], b = y.centre[axis];
 				return a != b ? a < b : x.number < y.number;
 			});
-		const int left = build(items, boxes, first, middle);
-		const int right = build(items, boxes, middle, last);
-		Node& node = m_nodes[index];
-		node.left = left;
-		node.right = right;
-		node.box.add(m_nodes[left].box);
-		node.box.add(m_nodes[right].box);
-		return index;
+		node.left = index + 1;
+		int after = 0;
+		if (last - first < kWorthHelp) {
+			node.right = build(items, boxes, first, middle, node.left);
+			after = build(items, boxes, middle, last, node.right);
+		}
+		else {
+			node.right = node.left + nodeCount(middle - first);
+			const auto buildHalves = [&](int from, int to) {
+				if (from == 0)
+					build(items, boxes, first, middle, node.left);
+				if (to == 2)
+					after = build(items, boxes, middle, last, node.right);
+			};
+			inParallel(2, defaultThreads(), buildHalves, 1);
+		}
+		node.box.add(m_nodes[node.left].box);
+		node.box.add(m_nodes[node.right].box);
+		return after;
 	}
 
 	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is;
