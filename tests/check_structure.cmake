@@ -9,7 +9,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # A folder may include itself and the folders before it; the top includes all.
 set(order
-	base numerics mesh metric flow cones cut layout refinement optimize charts measure hyperbolic texture)
+	base numerics mesh metric flow cut cones layout refinement optimize charts measure hyperbolic texture)
 # Public headers that every folder may include.
 set(leaves error.h options.h progress.h report.h)
 set(max_lines 550)

@@ -264,10 +264,9 @@ private:
 	}
 
 	/// Moves a part where it covers something, and divides that among others.
-	/// \return whether nothing is left of it, isShorter(), and the rest of the part there hangs together, which
-	/// takes longest to see
-	template<class IsShorter>
-	bool displace(int part, const Place& place, double maxArea, const IsShorter& isShorter)
+	/// \return whether nothing is left of it, seams are no longer, and the rest of the part there hangs together,
+	/// which takes longest to see
+	bool displace(int part, const Place& place, double maxArea)
 	{
 		std::vector<int> covered;
 		double area = 0.0;
@@ -283,10 +282,15 @@ private:
 			return false;
 		std::sort(covered.begin(), covered.end());
 		const std::vector<int> moved = m_parts.trianglesOf(part);
+		std::vector<int> both = covered;
+		both.insert(both.end(), moved.begin(), moved.end());
+		std::sort(both.begin(), both.end());
+		const double before = seamsAt(both);
 		const int displaced = m_parts.addPart();
 		m_parts.move(covered, {displaced, Motion(), 0.0});
 		m_parts.move(moved, place);
-		return divide(displaced) && isShorter() && hangsTogether(place.other, covered, moved);
+		return divide(displaced) && seamsAt(both) <= before &&
+			   hangsTogether(place.other, covered, moved);
 	}
 
 	/// Length of the seams at \p triangles, which are in increasing order.
@@ -310,13 +314,12 @@ private:
 		std::vector<int> triangles = m_parts.trianglesOf(part);
 		std::sort(triangles.begin(), triangles.end());
 		const double before = seamsAt(triangles);
-		const auto isShorter = [&] { return seamsAt(triangles) <= before; };
-		bool isDone = divide(part) && isShorter();
+		bool isDone = divide(part) && seamsAt(triangles) <= before;
 		if (!isDone) {
 			m_parts.undo();
 			for (const Place& place : placesOf(part)) {
 				checkpoint();
-				isDone = displace(part, place, maxArea, isShorter);
+				isDone = displace(part, place, maxArea);
 				if (isDone)
 					break;
 				m_parts.undo();

@@ -110,6 +110,13 @@ public:
 		return mayFall;
 	}
 
+	/// Lets the cones move.
+	void relocate()
+	{
+		relocateCones(m_model, m_sites, 1);
+		m_tree = SeamTree(m_sites, m_model.vertices());
+	}
+
 	/// Adds one cone, or some at a time where there are many already, and fits the curvatures.
 	/// \return false if no vertex is left
 	bool add()
@@ -146,7 +153,7 @@ void placeForObjective(const TargetRequest& request, ConeModel& model, const Con
 	Growth growth(request, model, sites);
 	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
 		if (model.size() >= relocated) {
-			relocateCones(model, sites, 1);
+			growth.relocate();
 			relocated = 2 * model.size();
 			if (!growth.mayFallBelow(request.alternative))
 				break;

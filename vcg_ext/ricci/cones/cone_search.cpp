@@ -200,6 +200,51 @@ private:
 	std::map<Vertex, std::vector<ConeSites::Way>> m_known;
 };
 
+/// Takes out the cone without which energy and prices fall most. A fit without it tells by how much, of those alone of
+/// which ConeModel::need() does not exclude it.
+/// \param tree of the cones
+/// \return false if they fall without none
+bool dropDearest(ConeModel& model, SeamTree& tree)
+{
+	const double present = model.energy();
+	const auto price = [&](int i) {
+		return kConePrice + kSeamPrice * tree.ownLength(model.vertex(i));
+	};
+	std::vector<std::pair<double, int>> most; // of what they fall by, and without which cone
+	for (int i = 0; i < model.size(); ++i)
+		if (const double fall = price(i) - kEnergyPrice * model.need(i); fall > 0.0)
+			most.emplace_back(-fall, i);
+	std::sort(most.begin(), most.end());
+	Vertex dearest;
+	double best = 0.0;
+	for (auto next = most.begin(); next != most.end() && -next->first > best; ++next) {
+		const double others = next + 1 == most.end() ? 0.0 : -next[1].first;
+		const int i = next->second;
+		const Vertex cone = model.vertex(i);
+		double fall = price(i);
+		const bool isOut = model.tryWithout(i, [&] {
+			fall -= kEnergyPrice * (model.energy() - present);
+			return fall > best && fall >= others;
+		});
+		if (fall > best) {
+			best = fall;
+			dearest = cone;
+		}
+		if (isOut)
+			break;
+	}
+	if (!dearest.isValid())
+		return false;
+	tree.remove(dearest);
+	if (model.isCone(dearest)) {
+		const auto& cones = model.vertices();
+		model.remove(
+			static_cast<int>(std::find(cones.begin(), cones.end(), dearest) - cones.begin()));
+		model.fit();
+	}
+	return true;
+}
+
 /// Moves cone \p i to a place around where energy and price of seams are lower.
 /// \param tree without the cone, \p own shorter than with it
 /// \return whether it has moved
@@ -301,22 +346,7 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 bool dropCostlyCones(ConeModel& model, SeamTree& tree)
 {
 	const int before = model.size();
-	while (model.size() > model.minSize()) {
-		int dearest = -1;
-		double most = 0.0;
-		for (int i = 0; i < model.size(); ++i) {
-			const double loss = kConePrice + kSeamPrice * tree.ownLength(model.vertex(i)) -
-								kEnergyPrice * model.need(i);
-			if (loss > most) {
-				most = loss;
-				dearest = i;
-			}
-		}
-		if (dearest < 0)
-			break;
-		tree.remove(model.vertex(dearest));
-		model.remove(dearest);
-		model.fit();
+	while (model.size() > model.minSize() && dropDearest(model, tree)) {
 	}
 	return model.size() < before;
 }

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../cut/cut_graph.h"
 #include "../mesh/triangulation.h"
 #include "../metric/area.h"
 
@@ -41,7 +42,7 @@ ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 }
 
 /// What a tree of shortest paths, from the boundary if there is one, and a tree of dual edges leave over,
-/// the longest ways between two paths first [Erickson Whittlesey 2005].
+/// the longest ways between two paths first [Erickson Whittlesey 2005], shortened as that of a map will be.
 void ConeSites::findCut(const EmbeddedSurface& surface)
 {
 	const Triangulation& t = surface.triangulation;
@@ -81,7 +82,6 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 		isCut[e] = sign > 0;
 		for (const Vertex v : t.ends(e))
 			uses[v] += sign;
-		m_cutLength += sign * surface.lengths[e];
 	};
 	for (const Edge e : edgesBesideCotree(t, isPath, loopLength)) {
 		take(e, 1);
@@ -98,9 +98,13 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 				end = t.target(h);
 				break;
 			}
-	for (const Vertex v : t.vertices())
-		if (uses[v] > 0)
-			m_toCut[v] = 0.0;
+	shortenCut(t, surface.lengths, VertexArray<char>(t.vertexCount(), 0), isCut);
+	for (const Edge e : t.edges())
+		if (isCut[e]) {
+			m_cutLength += surface.lengths[e];
+			for (const Vertex v : t.ends(e))
+				m_toCut[v] = 0.0;
+		}
 	m_cutLength /= unit(surface);
 }
 
