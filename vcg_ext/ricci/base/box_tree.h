@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace ricci {
@@ -19,16 +20,16 @@ class BoxTree
 public:
 	explicit BoxTree(const std::vector<Box2>& boxes)
 	{
-		Array<Item> items;
-		items.reserve(boxes.size());
+		Array<Point2> centres;
+		centres.reserve(boxes.size());
 		for (const Box2& b : boxes)
-			items.push_back(
-				{{0.5 * (b.min[0] + b.max[0]), 0.5 * (b.min[1] + b.max[1])}, items.size()});
-		m_order.reserve(boxes.size());
+			centres.push_back({0.5 * (b.min[0] + b.max[0]), 0.5 * (b.min[1] + b.max[1])});
+		m_order.resize(boxes.size());
+		std::iota(m_order.begin(), m_order.end(), 0);
 		m_boxes.reserve(boxes.size());
 		m_nodes.reserve(boxes.size());
 		if (!boxes.empty())
-			build(items, boxes, 0, items.size());
+			build(centres, boxes, 0, centres.size());
 	}
 
 	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
@@ -130,40 +131,33 @@ private:
 		bool isLeaf() const { return left < 0; }
 	};
 
-	struct Item
-	{
-		Point2 centre;
-		int number;
-	};
-
-	/// Appends the node of items[first .. last - 1] and those below it. \return its number
-	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last)
+	/// Appends the node of m_order[first .. last - 1] and those below it. \return its number
+	int build(const Array<Point2>& centres, const std::vector<Box2>& boxes, int first, int last)
 	{
 		const int index = m_nodes.size();
 		m_nodes.push_back({Box2(), first, last});
 		if (last - first <= 4) { // boxes of a leaf
 			for (int i = first; i < last; ++i) {
-				m_order.push_back(items[i].number);
-				m_boxes.push_back(boxes[positionOf(items[i].number)]);
+				m_boxes.push_back(boxes[positionOf(m_order[i])]);
 				m_nodes[index].box.add(m_boxes.back());
 			}
 			return index;
 		}
-		Box2 centres;
+		Box2 all;
 		for (int i = first; i < last; ++i)
-			centres.add(items[i].centre);
-		const std::size_t axis = centres.width() >= centres.height() ? 0 : 1;
+			all.add(centres[m_order[i]]);
+		const std::size_t axis = all.width() >= all.height() ? 0 : 1;
 		const int middle = first + (last - first) / 2;
 		std::nth_element(
-			items.begin() + first,
-			items.begin() + middle,
-			items.begin() + last,
-			[axis](const Item& x, const Item& y) {
-				const double a = x.centre[axis], b = y.centre[axis];
-				return a != b ? a < b : x.number < y.number;
+			m_order.begin() + first,
+			m_order.begin() + middle,
+			m_order.begin() + last,
+			[&](int i, int j) {
+				const double a = centres[i][axis], b = centres[j][axis];
+				return a != b ? a < b : i < j;
 			});
-		const int left = build(items, boxes, first, middle);
-		const int right = build(items, boxes, middle, last);
+		const int left = build(centres, boxes, first, middle);
+		const int right = build(centres, boxes, middle, last);
 		Node& node = m_nodes[index];
 		node.left = left;
 		node.right = right;

@@ -220,14 +220,14 @@ std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 
 } // namespace
 
-void countCuts(const Seams& before, Parametrization& map)
+void countCuts(const EdgeSet& before, Parametrization& map)
 {
-	const Seams after = seams(map.mesh);
-	const std::set<Corner> old(before.edges.begin(), before.edges.end());
+	const EdgeSet after = seams(map.mesh);
+	const std::set<Corner> old(before.sides.begin(), before.sides.end());
 	int cut = 0;
-	for (const Corner side : after.edges)
+	for (const Corner side : after.sides)
 		cut += old.count(side) == 0;
-	const int joined = static_cast<int>(before.edges.size() - after.edges.size()) + cut;
+	const int joined = static_cast<int>(before.sides.size() - after.sides.size()) + cut;
 	map.report.overlapCuts += cut;
 	map.report.seamEdges = std::max(0, map.report.seamEdges - joined);
 	map.report.seamLength += after.length - before.length;
@@ -237,7 +237,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided; // numbers of the parts
-	Seams before;             // once there are parts
+	EdgeSet before;           // once there are parts
 	const auto add = [&](const std::vector<int>& triangles, Chart chart) {
 		for (const int f : triangles)
 			map.mesh.chart[f] = static_cast<int>(charts.size());
@@ -386,7 +386,7 @@ void cutOff(const std::vector<int>& triangles, Parametrization& map)
 		graph.part[f] = ++off;
 		charts.insert(map.mesh.chart[f]);
 	}
-	const Seams before = seams(map.mesh);
+	const EdgeSet before = seams(map.mesh);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (const int c : charts)

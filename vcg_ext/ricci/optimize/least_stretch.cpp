@@ -8,6 +8,7 @@
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ricci {
@@ -24,7 +25,7 @@ constexpr double kMinStretchStep = 1e-8;
 class StretchDescent
 {
 public:
-	StretchDescent(const FlatMesh& flat, const std::vector<RestShape>& shapes) :
+	StretchDescent(const FlatMesh& flat, const std::vector<TriangleShape>& shapes) :
 			m_start(flat), m_trial(flat),
 			m_energy(
 				flat, allPoints(flat), wholePatch(flat), shapes, PatchCost::SymmetricDirichlet),
@@ -38,21 +39,16 @@ public:
 		m_value = m_energy.value(m_x, 0.0);
 	}
 
-	Descent descend()
+	/// \return whether the bound on its steps has ended it
+	bool descend()
 	{
-		Descent result{0, m_value, m_value};
-		double gain = m_value;
-		while (result.steps < kMaxStretchSteps &&
-			   gain > kMinStretchGain * (m_value - MapCost().energy)) {
-			gain = step();
-			if (!(gain > 0.0))
-				break;
-			++result.steps;
-			result.after = m_value;
-		}
-		result.endedEarly = result.steps == kMaxStretchSteps &&
-							gain > kMinStretchGain * (m_value - MapCost().energy);
-		return result;
+		if (!std::isfinite(m_value))
+			return false;
+		for (int i = 0; i < kMaxStretchSteps; ++i)
+			if (const double gain = step();
+				!(gain > std::max(0.0, kMinStretchGain * (m_value - MapCost().energy))))
+				return false;
+		return true;
 	}
 
 	Array<Point2> places() const { return placesAt(m_x); }
@@ -106,18 +102,18 @@ private:
 
 } // namespace
 
-Descent leastStretch(FlatMesh& flat)
+bool leastStretch(FlatMesh& flat)
 {
 	checkpoint();
 	scaleToSurface(flat);
 	const double height = kMinHeight * flat.box().extent();
 	const Validity validity{height, kWantedHeights * height};
-	const std::vector<RestShape> shapes =
+	const std::vector<TriangleShape> shapes =
 		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, validity);
 	StretchDescent descent(flat, shapes);
-	const Descent result = descent.descend();
+	const bool endedEarly = descent.descend();
 	flat.place = descent.places();
-	return result;
+	return endedEarly;
 }
 
 } // namespace ricci

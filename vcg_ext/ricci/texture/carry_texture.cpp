@@ -159,14 +159,14 @@ void writeColour(
 	bool hasAlpha,
 	Sample* rgba)
 {
-	constexpr double kMax = std::numeric_limits<Sample>::max();
+	const double most = std::numeric_limits<Sample>::max();
 	for (std::size_t c = 0; c < 4; ++c) {
 		double colour = 0.0;
 		for (std::size_t k = 0; k < 3; ++k)
 			for (std::size_t j = 0; j < 3; ++j)
 				colour +=
 					weights[k] * triangle.corners[k][j] * static_cast<double>(face.colour[j][c]);
-		rgba[c] = static_cast<Sample>(std::lround(std::clamp(kMax * colour, 0.0, kMax)));
+		rgba[c] = static_cast<Sample>(std::lround(std::clamp(most * colour, 0.0, most)));
 	}
 	if (!hasAlpha)
 		rgba[3] = std::numeric_limits<Sample>::max();
@@ -201,13 +201,10 @@ public:
 			m_pictures(positionOf(m_inARow) * positionOf(m_rows))
 	{
 		const auto isAny = [](const std::vector<int>&) { return true; };
-		forEachTile(isAny, [&](const Tile& tile) {
-			std::vector<int>& pictures = m_pictures[tile.number];
-			forEachRun(tile, [&](const Run&, const CarriedTriangle& triangle) {
-				const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
-				if (!contains(pictures, picture))
-					pictures.push_back(picture);
-			});
+		forEachRun(isAny, [&](std::size_t tile, const Run&, const CarriedTriangle& triangle) {
+			const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
+			if (!contains(m_pictures[tile], picture))
+				m_pictures[tile].push_back(picture);
 		});
 	}
 
@@ -238,21 +235,13 @@ public:
 		const auto shows = [&](const std::vector<int>& pictures) {
 			return contains(pictures, picture);
 		};
-		forEachTile(shows, [&](const Tile& tile) {
-			forEachRun(tile, [&](const Run& run, const CarriedTriangle& triangle) {
-				if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
-					drawRun(run, triangle, old);
-			});
+		forEachRun(shows, [&](std::size_t, const Run& run, const CarriedTriangle& triangle) {
+			if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
+				drawRun(run, triangle, old);
 		});
 	}
 
 private:
-	struct Tile
-	{
-		std::size_t number;
-		int left, right, top, bottom; // right and bottom are not in it
-	};
-
 	/// Texels of a row that show one triangle.
 	struct Run
 	{
@@ -264,40 +253,28 @@ private:
 		return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
 	}
 
-	/// Calls visit(tile) in many threads where concerns(the tile's pictures).
+	/// Calls visit(tile, run, its triangle) for the runs of each tile, in many threads, where concerns(the tile's pictures).
 	template<class Concerns, class Visit>
-	void forEachTile(const Concerns& concerns, const Visit& visit) const
+	void forEachRun(const Concerns& concerns, const Visit& visit) const
 	{
 		tasksInParallel(m_rows, m_threads, [&](int row) {
 			for (int i = 0; i < m_inARow; ++i) {
-				const Tile tile{
-					positionOf(row * m_inARow + i),
-					i * kTile,
-					std::min((i + 1) * kTile, m_result.width),
-					row * kTile,
-					std::min((row + 1) * kTile, m_result.height)};
-				if (!concerns(m_pictures[tile.number]))
+				const std::size_t tile = positionOf(row * m_inARow + i);
+				if (!concerns(m_pictures[tile]))
 					continue;
 				advance(static_cast<double>(row) / m_rows, "Drawing the texture");
-				visit(tile);
+				const int end = std::min((i + 1) * kTile, m_result.width);
+				for (int y = row * kTile; y < std::min((row + 1) * kTile, m_result.height); ++y)
+					for (int x = i * kTile; x < end;) {
+						const int number = m_sources.triangle(m_result.index(x, y)), first = x;
+						do
+							++x;
+						while (x < end && m_sources.triangle(m_result.index(x, y)) == number);
+						if (number >= 0)
+							visit(tile, Run{y, first, x}, m_mesh.triangles[positionOf(number)]);
+					}
 			}
 		});
-	}
-
-	/// visit(run, its triangle)
-	template<class Visit>
-	void forEachRun(const Tile& tile, const Visit& visit) const
-	{
-		for (int y = tile.top; y < tile.bottom; ++y)
-			for (int x = tile.left; x < tile.right;) {
-				const int number = m_sources.triangle(m_result.index(x, y));
-				const int first = x;
-				do
-					++x;
-				while (x < tile.right && m_sources.triangle(m_result.index(x, y)) == number);
-				if (number >= 0)
-					visit(Run{y, first, x}, m_mesh.triangles[positionOf(number)]);
-			}
 	}
 
 	/// \param width, height of its picture
