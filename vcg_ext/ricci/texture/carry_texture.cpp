@@ -172,16 +172,6 @@ void writeColour(
 		rgba[3] = std::numeric_limits<Sample>::max();
 }
 
-/// One old picture, and which chart each texel of it belongs to.
-template<class Sample>
-struct OldPicture
-{
-	int number;
-	const PictureView<const Sample>& view;
-	OldOwners owners;
-	PictureSampler<Sample> sampler;
-};
-
 /// Draws the texels of all triangles in one old picture after the other.
 template<class Sample>
 class TextureDrawing
@@ -228,16 +218,27 @@ public:
 		return levels;
 	}
 
-	/// \param old nullptr: the faces without a picture
-	void draw(const OldPicture<Sample>* old) const
+	/// The faces with one old picture.
+	/// \param owners which chart each texel of it belongs to
+	void draw(int picture, const OldOwners& owners, const PictureSampler<Sample>& sampler) const
 	{
-		const int picture = old ? old->number : -1;
-		const auto shows = [&](const std::vector<int>& pictures) {
-			return contains(pictures, picture);
-		};
-		forEachRun(shows, [&](std::size_t, const Run& run, const CarriedTriangle& triangle) {
-			if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
-				drawRun(run, triangle, old);
+		forEachRunOf(picture, [&](const Run& run, const CarriedTriangle& triangle) {
+			drawRun(run, triangle, owners, sampler);
+		});
+	}
+
+	/// The faces without a picture.
+	void drawColours() const
+	{
+		forEachRunOf(-1, [&](const Run& run, const CarriedTriangle& triangle) {
+			const TriangleMap map = mapOf(triangle, 0, 0);
+			for (int x = run.first; x < run.last; ++x)
+				writeColour(
+					m_mesh.faces[positionOf(triangle.face)],
+					triangle,
+					map.weights({x + 0.5, run.y + 0.5}),
+					m_hasAlpha,
+					m_result.rgba + 4 * m_result.index(x, run.y));
 		});
 	}
 
@@ -277,6 +278,19 @@ private:
 		});
 	}
 
+	/// Calls visit(run, its triangle) for the runs of the faces with a picture; -1: without one.
+	template<class Visit>
+	void forEachRunOf(int picture, const Visit& visit) const
+	{
+		const auto shows = [&](const std::vector<int>& pictures) {
+			return contains(pictures, picture);
+		};
+		forEachRun(shows, [&](std::size_t, const Run& run, const CarriedTriangle& triangle) {
+			if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
+				visit(run, triangle);
+		});
+	}
+
 	/// \param width, height of its picture
 	TriangleMap mapOf(const CarriedTriangle& triangle, int width, int height) const
 	{
@@ -286,24 +300,14 @@ private:
 			oldTexels(m_mesh.faces[positionOf(triangle.face)], width, height));
 	}
 
-	void
-	drawRun(const Run& run, const CarriedTriangle& triangle, const OldPicture<Sample>* old) const
+	void drawRun(
+		const Run& run,
+		const CarriedTriangle& triangle,
+		const OldOwners& owners,
+		const PictureSampler<Sample>& sampler) const
 	{
-		const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
-		const TriangleMap map =
-			mapOf(triangle, old ? old->view.width : 0, old ? old->view.height : 0);
-		if (old == nullptr) {
-			for (int x = run.first; x < run.last; ++x)
-				writeColour(
-					face,
-					triangle,
-					map.weights({x + 0.5, run.y + 0.5}),
-					m_hasAlpha,
-					m_result.rgba + 4 * m_result.index(x, run.y));
-			return;
-		}
-		const PictureSampler<Sample>& sampler = old->sampler;
-		const OldOwners::Chart chart = old->owners.of(m_charts[positionOf(triangle.face)]);
+		const TriangleMap map = mapOf(triangle, sampler.picture().width, sampler.picture().height);
+		const OldOwners::Chart chart = owners.of(m_charts[positionOf(triangle.face)]);
 		const Footprint footprint = map.footprint();
 		for (int x = run.first; x < run.last; ++x) {
 			const std::size_t texel = m_result.index(x, run.y);
@@ -368,12 +372,11 @@ void carryTexture(
 			const PictureView<const Sample>& view = pictures[i];
 			OldOwners owners(mesh.faces, charts, faces[i], view.width, view.height);
 			owners.addLevels(lastLevels[i]);
-			const OldPicture<Sample> old{
-				static_cast<int>(i), view, std::move(owners), {view, hasAlpha, lastLevels[i]}};
-			drawing.draw(&old);
+			drawing.draw(
+				static_cast<int>(i), owners, PictureSampler<Sample>(view, hasAlpha, lastLevels[i]));
 		}
 		if (!faces.back().empty())
-			drawing.draw(nullptr);
+			drawing.drawColours();
 		covered = sources.covered();
 	}
 	fillFromNearest(covered, result, threads);
