@@ -18,7 +18,7 @@ namespace {
 using Flow = vcg::tri::RicciFlow<DoubleMesh>;
 using Seams = vcg::tri::RicciSeams<DoubleMesh>;
 using Marks = Flow::SideMarks;
-using EdgeSet = std::set<std::pair<int, int>>; // of vertices, the lower first
+using VertexPairs = std::set<std::pair<int, int>>; // of vertices, the lower first
 
 /// In the mesh's own size, without cones for the sake of areas.
 Options withoutCones(OutputTriangulation output = OutputTriangulation::KeepMesh)
@@ -49,10 +49,10 @@ Marks marksOf(const SurfaceMesh& mesh, const ChosenEdge& isChosen)
 }
 
 /// The edges that are marked and have two faces.
-EdgeSet insideEdges(const SurfaceMesh& mesh, const Marks& marks)
+VertexPairs insideEdges(const SurfaceMesh& mesh, const Marks& marks)
 {
 	std::map<std::pair<int, int>, int> faces;
-	EdgeSet marked, inside;
+	VertexPairs marked, inside;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
 		for (std::size_t k = 0; k < 3; ++k) {
 			++faces[edge(mesh.triangles[f], k)];
@@ -66,16 +66,16 @@ EdgeSet insideEdges(const SurfaceMesh& mesh, const Marks& marks)
 }
 
 /// The edges across which the map jumps.
-EdgeSet jumps(const SurfaceMesh& mesh, const Flow::Result& r)
+VertexPairs jumps(const SurfaceMesh& mesh, const Flow::Result& r)
 {
 	DoubleMesh m;
 	toVcg(mesh, m);
 	Flow::WriteWedgeTexCoord(m, r);
 	const Marks marks = Seams::OfTexture(m);
-	return marks.empty() ? EdgeSet() : insideEdges(mesh, marks);
+	return marks.empty() ? VertexPairs() : insideEdges(mesh, marks);
 }
 
-void expectCounts(const SurfaceMesh& mesh, const EdgeSet& chosen, const Report& report)
+void expectCounts(const SurfaceMesh& mesh, const VertexPairs& chosen, const Report& report)
 {
 	double length = 0.0;
 	for (const auto& [a, b] : chosen)
@@ -105,7 +105,7 @@ TEST(ChosenSeams, OpenASphereAlongASlit)
 	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
 		return onMeridian(p) && onMeridian(q) && std::abs(p[2]) < 0.99 && std::abs(q[2]) < 0.99;
 	});
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), 10u);
 	for (const OutputTriangulation output : kOutputs) {
 		const auto r = compute(mesh, withoutCones(output), marks);
@@ -142,7 +142,7 @@ TEST(ChosenSeams, UnfoldABoxToItsNet)
 		const bool top = both(p, q, 2, high[2]);
 		return ((x0 || x1) && (y0 || y1)) || (top && (x0 || x1 || y0));
 	});
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	for (const OutputTriangulation output : kOutputs) {
 		const auto r = compute(mesh, withoutCones(output), marks);
 		EXPECT_EQ(r.report.charts, 1);
@@ -269,7 +269,7 @@ TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)
 		return (onMeridian(p) && onMeridian(q)) ||
 			   (std::hypot(p[0], p[1]) > 3.99 && std::hypot(q[0], q[1]) > 3.99);
 	});
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), std::size_t(kAround + kAcross));
 	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.charts, 1);
@@ -286,7 +286,7 @@ TEST(ChosenSeams, DivideASphereAlongItsEquator)
 	const SurfaceMesh mesh = sphere(12, 16);
 	const Marks marks = marksOf(
 		mesh, [](const Point3& p, const Point3& q) { return onEquator(p) && onEquator(q); });
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	Options params = withoutCones();
 	params.finish = Finish::None;
 	const auto r = compute(mesh, params, marks);
@@ -344,7 +344,7 @@ TEST(ChosenSeams, OfOneEdgeGoOnAlongAnother)
 		return onMeridian(p) && onMeridian(q) && std::abs(p[2]) < 0.3 && std::abs(q[2]) < 0.3 &&
 			   p[2] + q[2] > 0.1;
 	});
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), 1u);
 	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.charts, 1);
@@ -352,7 +352,7 @@ TEST(ChosenSeams, OfOneEdgeGoOnAlongAnother)
 	expectCounts(mesh, chosen, r.report);
 	EXPECT_EQ(r.report.seamEdges, 1);
 	EXPECT_NEAR(r.report.seamLength, 2 * std::sin(kPi / 24), 1e-9);
-	const EdgeSet cut = jumps(mesh, r);
+	const VertexPairs cut = jumps(mesh, r);
 	EXPECT_TRUE(std::includes(cut.begin(), cut.end(), chosen.begin(), chosen.end()));
 	for (const auto& [a, b] : cut) // straight on
 		EXPECT_TRUE(onMeridian(mesh.positions[at(a)]) && onMeridian(mesh.positions[at(b)]));
@@ -402,7 +402,7 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 	const Marks marks = marksOf(mesh, [&](const Point3& p, const Point3& q) {
 		return std::abs(p[0] - middle) + std::abs(q[0] - middle) < 1e-9;
 	});
-	const EdgeSet chosen = insideEdges(mesh, marks);
+	const VertexPairs chosen = insideEdges(mesh, marks);
 	for (const OutputTriangulation output : kOutputs) {
 		Flow::HyperbolicParams params;
 		params.output = output;
@@ -417,7 +417,7 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 		// Two tori with a geodesic for a border.
 		EXPECT_NEAR(r.report.hyperbolicArea.value_or(0.0), 4 * kPi, 1e-6);
 		if (output == OutputTriangulation::KeepMesh) {
-			const EdgeSet cut = jumps(mesh, r);
+			const VertexPairs cut = jumps(mesh, r);
 			EXPECT_TRUE(std::includes(cut.begin(), cut.end(), chosen.begin(), chosen.end()));
 		}
 		expectWritten(mesh, output, r);
@@ -474,7 +474,7 @@ TEST(ChosenSeams, AreFoundInTheTexture)
 	for (auto& f : m.face) // at two ends of an edge, at one, and for an index
 		f.WT(0).N() = f.WT(1).N() = f.WT(2).N() = short(vcg::tri::Index(m, f) >= 2);
 	EXPECT_EQ(edges().size(), 1u);
-	const EdgeSet byIndex = edges();
+	const VertexPairs byIndex = edges();
 	for (auto& f : m.face)
 		for (int k = 0; k < 3; ++k)
 			f.WT(k).N() = 0;
@@ -500,9 +500,10 @@ TEST(ChosenSeams, AreThoseSelected)
 	EXPECT_TRUE(Seams::OfSelectedEdges(m).empty());
 	EXPECT_TRUE(Seams::OfSelectedFaces(m).empty());
 	m.face[5].SetFaceEdgeS(2);
-	EXPECT_EQ(insideEdges(mesh, Seams::OfSelectedEdges(m)), EdgeSet{edge(mesh.triangles[5], 2)});
+	EXPECT_EQ(
+		insideEdges(mesh, Seams::OfSelectedEdges(m)), VertexPairs{edge(mesh.triangles[5], 2)});
 	m.face[5].SetS();
-	EdgeSet border;
+	VertexPairs border;
 	for (std::size_t k = 0; k < 3; ++k)
 		border.insert(edge(mesh.triangles[5], k));
 	EXPECT_EQ(insideEdges(mesh, Seams::OfSelectedFaces(m)), border);
@@ -525,11 +526,11 @@ TEST(ChosenSeams, KeepTheSeamsOfAMap)
 		toVcg(mesh, m);
 		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, Flow::Params()));
 		const Marks marks = Seams::OfTexture(m);
-		const EdgeSet before = insideEdges(mesh, marks);
+		const VertexPairs before = insideEdges(mesh, marks);
 		ASSERT_FALSE(before.empty());
 		const auto r = Flow::Compute(m, Flow::Params(), marks);
 		expectCounts(mesh, before, r.report);
-		const EdgeSet after = jumps(mesh, r);
+		const VertexPairs after = jumps(mesh, r);
 		EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
 		const auto kept = Flow::Compute(m, Flow::Params(), Marks(), Flow::ReadMap(m));
 		expectCounts(mesh, before, kept.report);

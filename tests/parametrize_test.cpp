@@ -9,7 +9,6 @@
 
 #include <ricci/ricci.h>
 
-#include <array>
 #include <map>
 #include <utility>
 
@@ -252,65 +251,6 @@ TEST(Parametrize, TheSeamOfARingIsShortest)
 	const Report report = run(ring(1, 4, 12, 5), options).report;
 	EXPECT_EQ(report.seamEdges, 5);
 	EXPECT_NEAR(report.seamLength, 3.0, 1e-12);
-}
-
-/// Largest relative deviation of the boundary's points from a circle through three of them.
-double roundness(const SurfaceMesh& mesh, const UV& uv)
-{
-	const FlatMap map(mesh, uv);
-	std::vector<Point2> points;
-	for (std::size_t f = 0; f < uv.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k)
-			if (map.boundary[at(mesh.triangles[f][k])])
-				points.push_back(uv[f][k]);
-	// The points that reach farthest to three sides; the centre has one distance from them.
-	std::array<Point2, 3> far;
-	for (std::size_t k = 0; k < 3; ++k) {
-		const Point2 to{std::cos(2 * kPi * double(k) / 3), std::sin(2 * kPi * double(k) / 3)};
-		far[k] = *std::max_element(points.begin(), points.end(), [&](auto& p, auto& q) {
-			return dot(p, to) < dot(q, to);
-		});
-	}
-	const Point2 a = far[1] - far[0], b = far[2] - far[0];
-	const double d = 2 * cross(a, b), aa = dot(a, a), bb = dot(b, b);
-	const Point2 centre = far[0] + Point2{(b[1] * aa - a[1] * bb) / d, (a[0] * bb - b[0] * aa) / d};
-	double worst = 0.0;
-	for (const Point2& p : points)
-		worst = std::max(worst, std::abs(distance(p, centre) / distance(far[0], centre) - 1.0));
-	return worst;
-}
-
-/// Faces with two boundary edges at the corners of a square become low, but not flipped: the finish leaves the circle
-/// alone for that, and mends what is inside.
-TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
-{
-	Random random(204);
-	for (const int n : {12, 24, 60}) {
-		SurfaceMesh square = rectangle(n, n, n, n);
-		for (Point3& p : square.positions)
-			if (p[0] > 0 && p[0] < n && p[1] > 0 && p[1] < n)
-				for (const std::size_t k : {0u, 1u})
-					p[k] += random.real(-0.3, 0.3);
-		Options options;
-		options.target = TargetCurvature::Disk;
-		options.finish = Finish::None;
-		const FlatResult drawn = run(square, options);
-		options.finish = Finish::LeastDistortion;
-		const FlatResult finished = run(square, options);
-		EXPECT_EQ(drawn.report.flippedFaces, 0);
-		EXPECT_EQ(finished.report.flippedFaces, 0);
-		EXPECT_LT(roundness(square, drawn.uv), 1e-11);
-		EXPECT_LE(roundness(square, finished.uv), roundness(square, drawn.uv) + 1e-15);
-		const Parametrization packed = parametrizeEuclidean(square, {}, options);
-		EXPECT_EQ(packed.report.flippedFaces + packed.report.flippedByRounding, 0);
-		UV stored;
-		for (const Triangle2& t : packed.mesh.corners()) {
-			stored.push_back(t);
-			for (Point2& p : stored.back())
-				p = {static_cast<float>(p[0]), static_cast<float>(p[1])};
-		}
-		EXPECT_LT(roundness(square, stored), 2e-7); // half a step of a float, twice
-	}
 }
 
 TEST(Parametrize, ConventionalFlowIsLessConformal)

@@ -367,7 +367,7 @@ void measure(
 	VertexVector u(surface.triangulation.vertexCount());
 	for (const Vertex v : u.indices())
 		u[v] = std::log(packing.radii[v]);
-	GeometricCurvatureMap<Euclidean> map(CirclePacking{packing.mesh.triangulation, packing.delta});
+	GeometricCurvatureMap<Euclidean> map(packing.mesh.triangulation, packing.delta);
 	map.evaluate(u);
 	// K(u) and its derivative, what the flow does in several threads, in one and in all of them.
 	const auto evaluation = [&](int threads) {

@@ -91,10 +91,10 @@ struct Scattered
 
 	Parts join()
 	{
-		const Seams before = seams(flat);
+		const EdgeSet before = seams(flat);
 		Parts joined = joinParts(flat, parts);
-		const Seams after = seams(flat);
-		edgesJoined = static_cast<int>(before.edges.size() - after.edges.size());
+		const EdgeSet after = seams(flat);
+		edgesJoined = static_cast<int>(before.sides.size() - after.sides.size());
 		lengthJoined = before.length - after.length;
 		expectDivided(flat, joined);
 		return joined;

@@ -81,7 +81,7 @@ struct DenseFlow
 		VertexVector u(of.flow.vertexCount());
 		for (const Vertex v : u.indices())
 			u[v] = std::log(of.start.radii[v]);
-		GeometricCurvatureMap<Euclidean> map(CirclePacking{mesh.triangulation, of.start.delta});
+		GeometricCurvatureMap<Euclidean> map(mesh.triangulation, of.start.delta);
 		const auto curvatureAt = [&](Vertex v, double step) {
 			VertexVector moved = u;
 			moved[v] += step;

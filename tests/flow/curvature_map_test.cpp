@@ -211,7 +211,7 @@ TEST(CurvatureMap, FollowsTheLawOfCosinesAndItsDerivative)
 		}
 		for (const double largest : {-0.1, -4.0, -20.0}) {
 			SCOPED_TRACE(largest);
-			HyperbolicMap map(mesh.packing);
+			HyperbolicMap map(mesh.triangulation, mesh.delta);
 			expectFormulas(map, disturbed(hyperbolicU(mesh, largest), 0.02, random, -1e-2));
 			whole += map.brokenTriangles() == 0;
 		}
@@ -232,11 +232,11 @@ void expectConvexityAfterFlips(double largest)
 			continue; // edges of the boundary cannot flip: triangles may break
 		for (const double spread : {0.3, 1.0, 5.0}) {
 			SCOPED_TRACE(spread);
-			GeometricCurvatureMap<Geometry> map(mesh.packing, true);
+			GeometricCurvatureMap<Geometry> map(mesh.triangulation, mesh.delta, true);
 			const VertexVector u = disturbed(hyperbolicU(mesh, largest), spread, random, -1e-2);
 			map.evaluate(disturbed(u, 1.0, random, -1e-2)); // what is rejected leaves no trace
 			map.reject();
-			EXPECT_EQ(map.delta(), mesh.packing.delta);
+			EXPECT_EQ(map.delta(), mesh.delta);
 			for (const Halfedge h : mesh.triangulation.halfedges()) {
 				ASSERT_EQ(map.triangulation().next(h), mesh.triangulation.next(h));
 				ASSERT_EQ(map.triangulation().origin(h), mesh.triangulation.origin(h));

@@ -166,8 +166,8 @@ TEST(Newton, AStepIsAddedWithoutRounding)
 	for (double& l : lengths)
 		l /= radius;
 	const VertexArray<double> ones(mesh.radii.size(), 1.0);
-	RecordingMap map(CirclePacking{
-		mesh.triangulation, inversiveDistancesLessOne(mesh.triangulation, lengths, ones)});
+	RecordingMap map(
+		mesh.triangulation, inversiveDistancesLessOne(mesh.triangulation, lengths, ones));
 	VertexVector start(mesh.u().size());
 	for (double& x : start)
 		x = 0x1p-60 * std::round(0x1p60 * random.real(-0.01, 0.01));

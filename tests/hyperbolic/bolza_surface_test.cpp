@@ -42,16 +42,16 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		const BolzaSurface surface(levels);
 		const Triangulation& t = surface.triangulation;
 		const VertexArray<double> radii = initialRadii(t, surface.lengths);
-		CirclePacking packing{t, {}};
+		EdgeArray<double> delta;
 		VertexVector u(t.vertexCount());
 		for (const Vertex v : t.vertices())
 			u[v] = std::log(std::tanh(0.5 * radii[v]));
 		for (const Edge e : t.edges()) {
 			const auto [i, j] = t.ends(e);
-			packing.delta.push_back(
+			delta.push_back(
 				std::max(0.0, Hyperbolic::delta(surface.lengths[e], radii[i], radii[j])));
 		}
-		GeometricCurvatureMap<Hyperbolic> printed(packing);
+		GeometricCurvatureMap<Hyperbolic> printed(t, delta);
 		printed.evaluate(u);
 		EXPECT_LT(printed.curvature().lpNorm<Eigen::Infinity>(), 1e-11);
 

@@ -126,8 +126,7 @@ TEST(CanonicalGenerators, HaveTheProductOfTheWord)
 			for (const ExtendedIsometry& h : handles)
 				size *= std::pow(static_cast<double>(abs(h.a) + abs(h.b)), 2);
 			EXPECT_LT(
-				errorOf(relationOf(handles).inverse() * productOf(word, g)),
-				100 * static_cast<double>(std::numeric_limits<DoubleDouble>::epsilon()) * size);
+				errorOf(relationOf(handles).inverse() * productOf(word, g)), 100 * 0x1p-66 * size);
 		}
 		++canonical;
 	}

@@ -85,9 +85,9 @@ TEST(DivideDisks, MovesFarPartsByIsometries)
 	// The triangles of neighbouring parts keep the lengths of their common sides: at 16 a double tells 1e-9.
 	EXPECT_LT(parts.seamGap, 1e-8);
 	// Each cut across the band is one edge.
-	const Seams cuts = seams(map.mesh);
-	EXPECT_EQ(map.report.overlapCuts, static_cast<int>(cuts.edges.size()));
-	EXPECT_EQ(cuts.edges.size(), map.charts.size() - 1);
+	const EdgeSet cuts = seams(map.mesh);
+	EXPECT_EQ(map.report.overlapCuts, static_cast<int>(cuts.sides.size()));
+	EXPECT_EQ(cuts.sides.size(), map.charts.size() - 1);
 	EXPECT_DOUBLE_EQ(map.report.seamLength, cuts.length);
 }
 

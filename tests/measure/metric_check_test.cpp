@@ -26,7 +26,7 @@ void agreesAndDetects(Background background, double scale)
 	for (const SurfaceMesh& mesh :
 		 {bumpyTorus(9, 7, random), randomPlanarDisk(6, random), perforatedSlab(2, 1)}) {
 		const Packed packed(mesh);
-		GeometricCurvatureMap<Geometry> map(packed.packing);
+		GeometricCurvatureMap<Geometry> map(packed.triangulation, packed.delta);
 		VertexVector u = packed.u();
 		for (double& x : u)
 			x += std::log(scale) + random.real(-1e-3, 1e-3);

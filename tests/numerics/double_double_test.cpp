@@ -137,10 +137,10 @@ TEST(DoubleDouble, FunctionsHaveTheirKnownValues)
 		{cosh(DoubleDouble(1)), "1.54308063481524377847790562075706168260"},
 		{asinh(DoubleDouble(1)), "0.88137358701954302523260932497979230903"},
 		{atan2(DoubleDouble(1), DoubleDouble(2)), "0.46364760900080611621425623146121440203"},
-		{sineAndCosine(1.0).sine, "0.84147098480789650665250232163029899962"},
-		{sineAndCosine(1.0).cosine, "0.54030230586813971740093660744297660373"},
-		{-sineAndCosine(5.0).sine, "0.95892427466313846889315440615599397335"},
-		{sineAndCosine(5.0).cosine, "0.28366218546322626446663917151355730833"}};
+		{turnBy(1.0).imag(), "0.84147098480789650665250232163029899962"},
+		{turnBy(1.0).real(), "0.54030230586813971740093660744297660373"},
+		{-turnBy(5.0).imag(), "0.95892427466313846889315440615599397335"},
+		{turnBy(5.0).real(), "0.28366218546322626446663917151355730833"}};
 	for (const auto& k : known)
 		EXPECT_LE(relative(k.value, number(k.digits)), kRounding) << k.digits;
 }
@@ -158,21 +158,21 @@ TEST(DoubleDouble, FunctionsAndTheirInversesFitTogether)
 		EXPECT_LE(relative(asinh(sinh(x)), x), 2 * kRounding);
 		EXPECT_LE(relative(asinh(sinh(small)), small), 2 * kRounding);
 		EXPECT_LE(relative((cosh(x) - sinh(x)) * exp(x), 1), kRounding * std::cosh(2 * x.high));
-		const SineAndCosine turn = sineAndCosine(x), twice = sineAndCosine(x * 2);
-		EXPECT_LE(relative(turn.sine * turn.sine + turn.cosine * turn.cosine, 1), kRounding);
-		EXPECT_LE(std::abs((2 * turn.sine * turn.cosine - twice.sine).high), kRounding);
+		const ExtendedComplex turn = turnBy(x), twice = turnBy(x * 2);
+		EXPECT_LE(relative(turn.imag() * turn.imag() + turn.real() * turn.real(), 1), kRounding);
+		EXPECT_LE(std::abs((2 * turn.imag() * turn.real() - twice.imag()).high), kRounding);
 		const DoubleDouble angle = randomNumber(-3.14159, 3.14159, random);
-		const SineAndCosine at = sineAndCosine(angle);
+		const ExtendedComplex at = turnBy(angle);
 		const DoubleDouble radius = abs(randomScale(60, random));
-		EXPECT_LE(relative(atan2(radius * at.sine, radius * at.cosine), angle), 2 * kRounding);
+		EXPECT_LE(relative(atan2(radius * at.imag(), radius * at.real()), angle), 2 * kRounding);
 	}
 	EXPECT_EQ(exp(DoubleDouble()), 1.0);
 	EXPECT_EQ(expm1(DoubleDouble()), 0.0);
 	EXPECT_EQ(sqrt(DoubleDouble()), 0.0);
 	EXPECT_EQ(atan2(DoubleDouble(), DoubleDouble()), 0.0);
-	const SineAndCosine half = sineAndCosine(kExtendedPi * 0.5);
-	EXPECT_LE(std::abs(half.cosine.high), 0x1p-100);
-	EXPECT_EQ(half.sine, 1.0);
+	const ExtendedComplex half = turnBy(kExtendedPi * 0.5);
+	EXPECT_LE(std::abs(half.real().high), 0x1p-100);
+	EXPECT_EQ(half.imag(), 1.0);
 }
 
 TEST(DoubleDouble, WhatIsNotANumberStaysSo)
@@ -182,14 +182,7 @@ TEST(DoubleDouble, WhatIsNotANumberStaysSo)
 		const DoubleDouble x = none;
 		EXPECT_FALSE(isfinite(x));
 		for (const DoubleDouble& y :
-			 {x + 1,
-			  x * 2,
-			  x - x,
-			  1 + expm1(x),
-			  asinh(x),
-			  sineAndCosine(x).sine,
-			  sqrt(-abs(x)),
-			  x / x})
+			 {x + 1, x * 2, x - x, 1 + expm1(x), asinh(x), turnBy(x).imag(), sqrt(-abs(x)), x / x})
 			EXPECT_FALSE(isfinite(y));
 		EXPECT_FALSE(x + 1 < 0.0);
 	}
@@ -197,7 +190,6 @@ TEST(DoubleDouble, WhatIsNotANumberStaysSo)
 	EXPECT_FALSE(isfinite(sqrt(DoubleDouble(-1))));
 	EXPECT_EQ(static_cast<double>(exp(DoubleDouble(-1e4))), 0.0);
 	EXPECT_FALSE(isfinite(exp(DoubleDouble(1e4)) * 2));
-	EXPECT_LT(std::numeric_limits<DoubleDouble>::epsilon(), 1e-19);
 }
 
 TEST(ExtendedComplex, IsTheFieldOfComplexNumbers)

@@ -49,12 +49,16 @@ FlatMesh waves()
 }
 
 /// Mean of sigma1^2 + sigma2^2 + sigma1^-2 + sigma2^-2 by area, from the lengths of sides alone:
-/// |J|^2 A of the metric g = J^T J is a sum over the sides with the cotangents of the opposite angles.
-double energyOf(const FlatMesh& flat)
+/// |J|^2 A of the metric g = J^T J is a sum over the sides with the cotangents of the opposite angles. Of the
+/// triangles that are counter-clockwise, at the scale at which all have the area that they have on the surface.
+double energyOf(FlatMesh flat)
 {
+	scaleToSurface(flat);
 	double sum = 0.0, total = 0.0;
 	for (const int f : flat.points.indices()) {
 		const Triangle2 p = flat.at(f);
+		if (orientation(p) <= 0)
+			continue;
 		const auto& [a, b, c] = flat.lengths[f];
 		const double s = 0.5 * (a + b + c);
 		const double area = std::sqrt(s * (s - a) * (s - b) * (s - c));
@@ -141,9 +145,8 @@ TEST(LeastStretch, OfADevelopableSurfaceIsAnIsometry)
 		for (Point2& p : flat.place)
 			p = size * p;
 		ASSERT_EQ(notCounterClockwise(flat), 0);
-		const Descent result = leastStretch(flat);
-		EXPECT_GT(result.before, 4.5);
-		EXPECT_NEAR(result.after, 4.0, 1e-10);
+		EXPECT_GT(energyOf(flat), 4.5);
+		EXPECT_FALSE(leastStretch(flat));
 		EXPECT_NEAR(energyOf(flat), 4.0, 1e-10);
 		for (const int f : flat.points.indices())
 			for (const Corner side : cornersOf(f)) {
@@ -157,15 +160,14 @@ TEST(LeastStretch, LowersTheEnergyAndFlipsNothing)
 {
 	const FlatMesh start = waves();
 	FlatMesh flat = start;
-	const Descent result = leastStretch(flat);
-	EXPECT_GT(result.steps, 2);
-	EXPECT_LT(result.after, result.before);
-	EXPECT_GT(result.after, 4.0);
-	EXPECT_NEAR(energyOf(flat), result.after, 1e-12 * result.after);
+	EXPECT_FALSE(leastStretch(flat));
+	const double after = energyOf(flat);
+	EXPECT_LT(after, energyOf(start));
+	EXPECT_GT(after, 4.0);
 	EXPECT_EQ(notCounterClockwise(flat), 0);
 	// It is nearly a minimum: another run gains little more than what ends a run.
-	const Descent again = leastStretch(flat);
-	EXPECT_LT(again.before - again.after, 0.01 * (again.before - 4.0));
+	leastStretch(flat);
+	EXPECT_LT(after - energyOf(flat), 0.01 * (after - 4.0));
 }
 
 TEST(LeastStretch, ATriangleThatIsFlippedDoesNotCount)
@@ -175,9 +177,9 @@ TEST(LeastStretch, ATriangleThatIsFlippedDoesNotCount)
 	flat.place[middle][0] += 1.6;
 	const int flipped = notCounterClockwise(flat);
 	ASSERT_GT(flipped, 0);
-	const Descent result = leastStretch(flat);
-	EXPECT_TRUE(std::isfinite(result.before));
-	EXPECT_LT(result.after, result.before);
+	const double before = energyOf(flat);
+	leastStretch(flat);
+	EXPECT_LT(energyOf(flat), before);
 	EXPECT_LE(notCounterClockwise(flat), flipped);
 }
 

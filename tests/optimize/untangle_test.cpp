@@ -30,7 +30,7 @@ struct Whole
 	FlatMesh flat;
 	PointGroups groups;
 	Patch patch;
-	std::vector<RestShape> shapes;
+	std::vector<TriangleShape> shapes;
 
 	explicit Whole(FlatMesh d) : flat(std::move(d)), groups(insidePoints(flat))
 	{
@@ -45,10 +45,9 @@ struct Whole
 		shapes = restShapes(flat, patch, RestShapes::OfSurfaceEvenly, kValid);
 	}
 
-	PatchProblem problem(int maxSteps = kMaxSteps) const
+	Untangled solvedBy(decltype(untangle)& solve, int maxSteps = kMaxSteps) const
 	{
-		static const RepairRules rules{RestShapes::OfSurfaceEvenly, kValid};
-		return {flat, groups, rules, patch, maxSteps};
+		return solve(flat, groups, {RestShapes::OfSurfaceEvenly, kValid}, patch, maxSteps);
 	}
 
 	/// The drawing with the patch's points at \p places.
@@ -89,7 +88,7 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
 		ASSERT_GT(notCounterClockwise(whole.flat), 0);
 		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
-		const Untangled result = untangle(whole.problem());
+		const Untangled result = whole.solvedBy(untangle);
 		ASSERT_FALSE(result.points.empty());
 		EXPECT_GT(result.steps, 0);
 		const FlatMesh moved = whole.with(result.points);
@@ -109,11 +108,11 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 {
 	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
 		const Whole whole(tangled(20, seed));
-		const Untangled valid = untangle(whole.problem());
+		const Untangled valid = whole.solvedBy(untangle);
 		ASSERT_FALSE(valid.points.empty());
 		const Whole moved(whole.with(valid.points));
 		const FlatMesh flat = square();
-		const Untangled eased = ease(moved.problem());
+		const Untangled eased = moved.solvedBy(ease);
 		ASSERT_FALSE(eased.points.empty());
 		const FlatMesh last = moved.with(eased.points);
 		EXPECT_LE(moved.strainOf(last), moved.strainOf(moved.flat));
@@ -128,7 +127,7 @@ TEST(Untangle, SaysWhatItCannotMend)
 {
 	FlatMesh flat = tangled(20, 3);
 	flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
-	const Untangled result = untangle(Whole(flat).problem());
+	const Untangled result = Whole(flat).solvedBy(untangle);
 	EXPECT_TRUE(result.points.empty());
 	EXPECT_GT(result.steps, 0);
 }
@@ -136,7 +135,7 @@ TEST(Untangle, SaysWhatItCannotMend)
 TEST(Untangle, TakesNoMoreStepsThanItMay)
 {
 	const Whole whole(tangled(20, 5));
-	const auto steps = [&](int maxSteps) { return untangle(whole.problem(maxSteps)).steps; };
+	const auto steps = [&](int maxSteps) { return whole.solvedBy(untangle, maxSteps).steps; };
 	const int all = steps(kMaxSteps);
 	ASSERT_GT(all, 3);
 	for (int maxSteps = 0; maxSteps <= all + 2; ++maxSteps)
@@ -146,7 +145,7 @@ TEST(Untangle, TakesNoMoreStepsThanItMay)
 TEST(Ease, LeavesWhatIsNotValidAlone)
 {
 	const Whole whole(tangled(20, 7));
-	const Untangled result = ease(whole.problem());
+	const Untangled result = whole.solvedBy(ease);
 	EXPECT_TRUE(result.points.empty());
 	EXPECT_EQ(result.steps, 0);
 }
@@ -156,7 +155,7 @@ TEST(Strain, IsThatOfTheSingularValues)
 {
 	Random random(931);
 	for (int trial = 0; trial < 200; ++trial) {
-		const RestShape shape{
+		const TriangleShape shape{
 			random.real(0.1, 3.0), Complex(random.real(-2.0, 2.0), random.real(0.05, 2.0))};
 		const double s = random.real(0.2, 4.0), t = random.real(0.2, 4.0);
 		const Complex before = std::polar(1.0, random.real(0.0, 2 * kPi));
@@ -173,7 +172,7 @@ TEST(Strain, IsThatOfTheSingularValues)
 		EXPECT_NEAR(strain(shape, triangle(1.0)), expected, 1e-9 * expected);
 		EXPECT_EQ(strain(shape, triangle(-1.0)), std::numeric_limits<double>::infinity());
 	}
-	const RestShape unit{1.0, Complex(0.0, 1.0)};
+	const TriangleShape unit{1.0, Complex(0.0, 1.0)};
 	EXPECT_NEAR(strain(unit, {{{0, 0}, {1, 0}, {0, 1}}}), 1.0, 1e-15);
 	EXPECT_EQ(strain(unit, {{{0, 0}, {1, 0}, {2, 0}}}), std::numeric_limits<double>::infinity());
 }
@@ -182,7 +181,7 @@ constexpr Validity kLow{1e-6, 2e-6, false};
 
 /// Three triangles round a point inside the triangle of three others, and the shapes that they get
 /// where the four points lie at \p places in space.
-std::vector<RestShape> shapesOf(const std::vector<Point2>& places)
+std::vector<TriangleShape> shapesOf(const std::vector<Point2>& places)
 {
 	FlatMesh flat;
 	flat.place = Array<Point2>(std::vector<Point2>{{0.0, 0.0}, {4.0, 0.0}, {2.0, 3.0}, {2.0, 1.0}});
@@ -202,7 +201,7 @@ std::vector<RestShape> shapesOf(const std::vector<Point2>& places)
 	return restShapes(flat, patch, RestShapes::OfSurface, kLow);
 }
 
-double longest(const RestShape& s)
+double longest(const TriangleShape& s)
 {
 	return std::max({s.base, std::abs(s.apex), std::abs(s.apex - s.base)});
 }
@@ -210,7 +209,7 @@ double longest(const RestShape& s)
 TEST(RestShapes, HaveTheScaleOfTheDrawing)
 {
 	// The drawing is a quarter of the surface.
-	for (const RestShape& s : shapesOf({{0.0, 0.0}, {16.0, 0.0}, {8.0, 12.0}, {8.0, 4.0}})) {
+	for (const TriangleShape& s : shapesOf({{0.0, 0.0}, {16.0, 0.0}, {8.0, 12.0}, {8.0, 4.0}})) {
 		EXPECT_GE(longest(s), 3.0 - 1e-9);
 		EXPECT_LE(longest(s), 4.0 + 1e-9);
 	}
@@ -221,7 +220,8 @@ TEST(RestShapes, TrianglesWithoutAreaHaveTheScaleOfTheirSides)
 	// All on a line, of lengths near to those in the drawing: areas would tell a scale of hundreds.
 	for (const double height : {0.0, 1e-18, 1e-9}) {
 		SCOPED_TRACE(height);
-		for (const RestShape& s : shapesOf({{0.0, 0.0}, {4.0, 0.0}, {2.5, height}, {1.5, 0.0}})) {
+		for (const TriangleShape& s :
+			 shapesOf({{0.0, 0.0}, {4.0, 0.0}, {2.5, height}, {1.5, 0.0}})) {
 			EXPECT_GE(longest(s), 1.0);
 			EXPECT_LE(longest(s), 6.0);
 			EXPECT_GE(s.apex.imag() * s.base, kLow.wanted * (1.0 - 1e-9) * longest(s));

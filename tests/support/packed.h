@@ -18,12 +18,12 @@ struct Packed
 	Triangulation triangulation;
 	EdgeArray<double> lengths;
 	VertexArray<double> radii;
-	CirclePacking packing;
+	EdgeArray<double> delta;
 
 	explicit Packed(const SurfaceMesh& mesh) : Packed(intrinsicMesh(mesh)) {}
 	Packed(const Triangulation& t, const EdgeArray<double>& l) :
-			triangulation(t), lengths(l),
-			radii(initialRadii(t, l)), packing{t, inversiveDistancesLessOne(t, l, radii)}
+			triangulation(t), lengths(l), radii(initialRadii(t, l)),
+			delta(inversiveDistancesLessOne(t, l, radii))
 	{
 	}
 
@@ -36,7 +36,7 @@ struct Packed
 	}
 	GeometricCurvatureMap<Euclidean> map() const
 	{
-		return GeometricCurvatureMap<Euclidean>(packing);
+		return GeometricCurvatureMap<Euclidean>(triangulation, delta);
 	}
 
 private:

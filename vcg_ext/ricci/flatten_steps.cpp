@@ -61,8 +61,8 @@ void describeByMap(const Component& component, Parametrization& map)
 	report.cones = 0;
 	for (const Vertex v : topology.boundary.indices())
 		report.cones += !topology.boundary[v] && map.targetCurvature[positionOf(v)] != 0.0;
-	const Seams seam = seams(map.mesh);
-	report.seamEdges = static_cast<int>(seam.edges.size());
+	const EdgeSet seam = seams(map.mesh);
+	report.seamEdges = static_cast<int>(seam.sides.size());
 	report.seamLength = seam.length;
 }
 

@@ -34,17 +34,8 @@ double radiusOf(const PlanarLayout& layout)
 	return 2.0 * std::atanh(std::min(1.0, r));
 }
 
-/// A component laid out in the disk.
-struct DiskMap
-{
-	SurfaceLayout layout;
-	FuchsianGroup group;
-	double closingError = 0.0;
-};
-
-/// Lays the component out in the disk, with a longer cut if floats cannot hold the first one, and finds its
-/// group.
-DiskMap layOut(
+/// Lays the component out in the disk, with a longer cut if floats cannot hold the first one.
+SurfaceLayout layOut(
 	const FlowDomain& domain,
 	OverlayPieces overlay,
 	const HyperbolicOptions& options,
@@ -53,25 +44,18 @@ DiskMap layOut(
 {
 	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
-	DiskMap map;
-	map.layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
-	if (const double radius = radiusOf(map.layout.corners); radius > kMaxTileDistance) {
+	SurfaceLayout layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
+	if (const double radius = radiusOf(layout.corners); radius > kMaxTileDistance) {
 		cut = cutAroundCentre(t, cutCost(domain, flow, options.method), std::move(cut.cones));
-		map.layout =
+		layout =
 			layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
 		logLine(
 			"The short seams reach " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer seams around the centre reach " +
-			numberText(radiusOf(map.layout.corners), 3) + " out.");
+			numberText(radiusOf(layout.corners), 3) + " out.");
 	}
-	map.layout.pairing = pairingOfArcs(t, cut, map.layout.pairing);
-	map.closingError = closingError(t, cut, map.layout, flow.target);
-	advance(1.0 - kAfterFlow, "Canonical generators");
-	map.group = fuchsianGroup(t, cut, map.layout.pairing, options.canonicalGenerators);
-	if (options.canonicalGenerators && !map.group.isCanonical())
-		logLine("There are no canonical generators: they would move points farther than "
-				"floating-point numbers can resolve.");
-	return map;
+	layout.pairing = pairingOfArcs(t, cut, layout.pairing);
+	return layout;
 }
 
 } // namespace
@@ -104,25 +88,36 @@ Parametrization flattenToDisk(
 				cutCost(domain, flow, options.method),
 				conesOf(domain.surface, flow.target));
 		});
-	DiskMap map;
+	SurfaceLayout layout;
+	double relationError = 0.0;
+	FuchsianGroup group;
 	InvariantReport invariants;
 	besides(
 		threads,
-		[&] { map = layOut(domain, std::move(overlay), options, flow, cut); }, // 4.3
+		[&] {
+			const Triangulation& t = domain.surface.triangulation;
+			layout = layOut(domain, std::move(overlay), options, flow, cut); // 4.3
+			relationError = closingError(t, cut, layout, flow.target);
+			advance(1.0 - kAfterFlow, "Canonical generators");
+			group = fuchsianGroup(t, cut, layout.pairing, options.canonicalGenerators);
+			if (options.canonicalGenerators && !group.isCanonical())
+				logLine("There are no canonical generators: they would move points farther than "
+						"floating-point numbers can resolve.");
+		},
 		[&] {
 			invariants = measurePeriods(type, flow);
 			requireMetric(flow, domain.solved().topology.boundary);
 		});
 	invariants.hyperbolicArea = flow.area;
-	invariants.relationError = map.closingError;
+	invariants.relationError = relationError;
 
 	advance(1.0, "Checking the result");
 	const bool mayFlip = isBent(flow, log, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, 1.0);
 	static_cast<InvariantReport&>(part.report) = std::move(invariants);
-	part.charts.front().group = std::move(map.group);
-	part.mesh = isRefined(options) ? std::move(map.layout.refinement)
-								   : flatMeshOf(component, domain, map.layout.corners);
+	part.charts.front().group = std::move(group);
+	part.mesh = isRefined(options) ? std::move(layout.refinement)
+								   : flatMeshOf(component, domain, layout.corners);
 	requireDisk(part.mesh, flow, mayFlip);
 	return part;
 }

@@ -67,8 +67,7 @@ std::optional<Parametrization> rightGivenMap(const Component& component)
 	if (doubled < 0.0)
 		for (Point2& p : mesh.place)
 			p[0] = -p[0];
-	const FlippedCount flipped = countFlipped(mesh);
-	if (flipped.faces + flipped.byRounding > 0 || overlapsInFloats(mesh)[0] > 0)
+	if (countFlipped(mesh) + countFlippedByRounding(mesh) > 0 || overlapsInFloats(mesh)[0] > 0)
 		return std::nullopt;
 	Parametrization map = chartOf(component, true, std::move(mesh));
 	scaleForLeastEnergy(map.mesh);

@@ -248,9 +248,8 @@ void pack(const Options& options, WholeMap& whole)
 /// Counts what is wrong with the coordinates as they are stored.
 void countFaults(Parametrization& map)
 {
-	const FlippedCount flipped = countFlipped(map.mesh);
-	map.report.flippedFaces = flipped.faces;
-	map.report.flippedByRounding = flipped.byRounding;
+	map.report.flippedFaces = countFlipped(map.mesh);
+	map.report.flippedByRounding = countFlippedByRounding(map.mesh);
 	const auto [faces, charts] = overlapsInFloats(map.mesh);
 	map.report.overlappingFaces = faces;
 	map.report.overlappingCharts = charts;
@@ -404,7 +403,7 @@ Parametrization parametrizeHyperbolic(
 		std::max(*map.report.relationError, closingError(map.mesh, map.targetCurvature));
 	// Straight triangles of a disk may be flipped where geodesic ones are not.
 	const int flipped =
-		isFinished(options) ? 0 : flippedInDisk(map.mesh) + countFlipped(leftOut.mesh).faces;
+		isFinished(options) ? 0 : flippedInDisk(map.mesh) + countFlipped(leftOut.mesh);
 	if (!leftOut.charts.empty())
 		addBeside(std::move(leftOut), map);
 	placeDisks(map);

@@ -37,50 +37,41 @@ Vector vec(const Point3& p)
 	return {p[0], p[1], p[2]};
 }
 
-/// The vertices by one coordinate, that in which they reach farthest: few lie near any of them in it.
-class SortedVertices
+/// Finds the distance of the vertex nearest to \p v, or \p radius if none is nearer: found(v, radius). The vertices are
+/// sorted by the coordinate in which they reach farthest, in which few lie near any of them.
+/// \param positions must outlive the result
+auto nearestVertex(const VertexArray<Point3>& positions)
 {
-public:
-	explicit SortedVertices(const VertexArray<Point3>& positions) : m_positions(positions)
-	{
-		double widest = -1.0;
-		for (std::size_t k = 0; k < 3; ++k) {
-			const auto [low, high] = std::minmax_element(
-				positions.begin(), positions.end(), [k](const Point3& a, const Point3& b) {
-					return a[k] < b[k];
-				});
-			if ((*high)[k] - (*low)[k] > widest) {
-				widest = (*high)[k] - (*low)[k];
-				m_axis = k;
-			}
-		}
-		for (const Vertex v : positions.indices())
-			m_order.push_back(v);
-		std::stable_sort(m_order.begin(), m_order.end(), [&](Vertex a, Vertex b) {
-			return positions[a][m_axis] < positions[b][m_axis];
-		});
-	}
-
-	/// Distance of the vertex nearest to \p v, or \p radius if none is nearer.
-	double nearest(Vertex v, double radius) const
-	{
-		const Point3& centre = m_positions[v];
-		auto other = std::lower_bound(
-			m_order.begin(), m_order.end(), centre[m_axis] - radius, [&](Vertex w, double low) {
-				return m_positions[w][m_axis] < low;
+	std::size_t axis = 0;
+	double widest = -1.0;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const auto [low, high] = std::minmax_element(
+			positions.begin(), positions.end(), [k](const Point3& a, const Point3& b) {
+				return a[k] < b[k];
 			});
-		for (; other != m_order.end() && m_positions[*other][m_axis] <= centre[m_axis] + radius;
-			 ++other)
-			if (*other != v)
-				radius = std::min(radius, distance(m_positions[*other], centre));
-		return radius;
+		if ((*high)[k] - (*low)[k] > widest) {
+			widest = (*high)[k] - (*low)[k];
+			axis = k;
+		}
 	}
-
-private:
-	const VertexArray<Point3>& m_positions;
-	std::size_t m_axis = 0;
-	std::vector<Vertex> m_order;
-};
+	std::vector<Vertex> order;
+	for (const Vertex v : positions.indices())
+		order.push_back(v);
+	std::stable_sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
+		return positions[a][axis] < positions[b][axis];
+	});
+	return [&positions, axis, order = std::move(order)](Vertex v, double radius) {
+		const Point3& centre = positions[v];
+		auto other = std::lower_bound(
+			order.begin(), order.end(), centre[axis] - radius, [&](Vertex w, double low) {
+				return positions[w][axis] < low;
+			});
+		for (; other != order.end() && positions[*other][axis] <= centre[axis] + radius; ++other)
+			if (*other != v)
+				radius = std::min(radius, distance(positions[*other], centre));
+		return radius;
+	};
+}
 
 /// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
 /// in space; where there is none, the one that others come least near.
@@ -110,13 +101,13 @@ Vertex choosePole(const Component& c)
 	std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
 		return minAngle[a] != minAngle[b] ? minAngle[a] > minAngle[b] : a < b;
 	});
-	const SortedVertices sorted(c.positions);
+	const auto distanceToNearest = nearestVertex(c.positions);
 	Vertex best;
 	double mostAlone = 0.0;
 	for (const Vertex pole : order) {
 		checkpoint();
 		const double reach = kNearest * nearest[pole];
-		const double alone = reach > 0.0 ? sorted.nearest(pole, reach) / nearest[pole] : 0.0;
+		const double alone = reach > 0.0 ? distanceToNearest(pole, reach) / nearest[pole] : 0.0;
 		if (alone > mostAlone) {
 			mostAlone = alone;
 			best = pole;

@@ -50,19 +50,14 @@ void dropInside(std::vector<Point2>& points)
 		points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
 }
 
-/// A side of a polygon without which its neighbours meet in \p corner.
-struct SpareSide
+/// Leaves out the side of a convex polygon that adds the least area, where its neighbours meet.
+/// \return false, and nothing is done, if no neighbours do
+bool dropSide(std::vector<Point2>& polygon)
 {
+	const std::size_t n = polygon.size();
 	std::size_t side = 0;
 	Point2 corner{0.0, 0.0};
-	double area = kInfinity; ///< twice what is added
-};
-
-/// The side of a convex polygon that adds the least area. Infinite area if neighbours meet nowhere.
-SpareSide spareSide(const std::vector<Point2>& polygon)
-{
-	SpareSide best;
-	const std::size_t n = polygon.size();
+	double least = kInfinity; // twice what is added
 	for (std::size_t i = 0; i < n; ++i) {
 		const Point2 &o = polygon[(i + n - 1) % n], &p = polygon[i];
 		const Point2 &q = polygon[(i + 1) % n], &r = polygon[(i + 2) % n];
@@ -72,11 +67,17 @@ SpareSide spareSide(const std::vector<Point2>& polygon)
 		if (!(turn > 0.0) || !std::isfinite(t))
 			continue;
 		const Point2 x{p[0] + t * (p[0] - o[0]), p[1] + t * (p[1] - o[1])};
-		const double area = std::abs(doubledArea(p, x, q));
-		if (area < best.area)
-			best = {i, x, area};
+		if (const double area = std::abs(doubledArea(p, x, q)); area < least) {
+			side = i;
+			corner = x;
+			least = area;
+		}
 	}
-	return best;
+	if (std::isinf(least))
+		return false;
+	polygon[side] = corner;
+	polygon.erase(std::next(polygon.begin(), static_cast<std::ptrdiff_t>((side + 1) % n)));
+	return true;
 }
 
 /// The rectangle whose lower side is that of a convex polygon from corner \p i, without min and max.
@@ -169,14 +170,8 @@ std::vector<Point2> convexHull(std::vector<Point2> points)
 
 std::vector<Point2> enclosingPolygon(std::vector<Point2> polygon, std::size_t maxCorners)
 {
-	while (polygon.size() > maxCorners) {
-		const SpareSide spare = spareSide(polygon);
-		if (std::isinf(spare.area))
-			break;
-		const std::size_t next = (spare.side + 1) % polygon.size();
-		polygon[spare.side] = spare.corner;
-		polygon.erase(std::next(polygon.begin(), static_cast<std::ptrdiff_t>(next)));
-	}
+	while (polygon.size() > maxCorners && dropSide(polygon))
+		;
 	return polygon;
 }
 

@@ -153,6 +153,16 @@ inline std::complex<double> asComplex(const Point2& p)
 	return {p[0], p[1]};
 }
 
+/// A triangle by its shape: its corners are at 0, \p base > 0 and \p apex, whose imaginary part is not negative.
+struct TriangleShape
+{
+	double base = 1.0;
+	std::complex<double> apex;
+
+	double area() const { return 0.5 * base * apex.imag(); }
+	double longestSide() const { return std::max({base, std::abs(apex), std::abs(apex - base)}); }
+};
+
 inline Point2 asPoint(std::complex<double> z)
 {
 	return {z.real(), z.imag()};

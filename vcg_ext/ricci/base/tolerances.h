@@ -34,8 +34,10 @@ constexpr double kMaxPolygonGap = 1e-2;
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon();
 
 /// What rounding leaves of numbers of order 1: after a few operations; after a hundred, or a solved system; where
-/// some digits have cancelled; and where a third of them have, so that what is smaller counts as 0.
-constexpr double kFewRoundings = 1e-15, kManyRoundings = 1e-14, kCancelled = 1e-12, kTiny = 1e-9;
+/// some digits have cancelled; where a third of them have, so that what is smaller counts as 0; and where more than
+/// half of them have, so that two numbers nearer to each other count as equal.
+constexpr double kFewRoundings = 1e-15, kManyRoundings = 1e-14, kCancelled = 1e-12, kTiny = 1e-9,
+				 kSmall = 1e-6;
 
 /// Coordinates beyond this, and components smaller than its inverse, are refused: products of four
 /// lengths must be numbers. Every mesh in single precision is within these.
@@ -67,10 +69,6 @@ constexpr double kStalledBalance = 1e-10;
 /// bound of cotangents; smallest weight of an edge, so that the matrix is positive definite.
 constexpr double kNoArea = 1e-300, kMaxCotangent = 1e3, kMinCotangentWeight = 1e-6;
 
-/// A difference below this share of its terms has lost the digits that places of crossings need: they are
-/// found in extended precision.
-constexpr double kMinDifference = 1e-6;
-
 /// Least height that triangles are given, relative to the extent of the map: eight steps of a float
 /// below 1. And in floats, in steps at the largest coordinate: rounding takes less than two. Triangles
 /// that are mended get so many times this height where they can.
@@ -83,9 +81,6 @@ constexpr double kTextStep = 1e-6, kSameCoordinate = kTextStep;
 /// A triangle whose height is a smaller share of a side is too thin to have a normal: its corners are rounded in files
 /// to about 1e-6 of their size.
 constexpr double kThinTriangle = 1e-4;
-
-/// Radians: faces at an edge whose angles about it differ no more lie on one another.
-constexpr double kSameAngle = 1e-6;
 
 /// Room in the box of a chart of a few triangles, as a share of the square that holds all charts, for
 /// triangles of those heights, in six decimals too. Sides shorter than kThinSide times the room get it.

@@ -82,7 +82,7 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 {
 	cutOff(triangles, map);
 	for (const int f : triangles) {
-		const RestShape shape = restShape(map.mesh, f, RestShapes::OfDrawing, validity);
+		const TriangleShape shape = restShape(map.mesh, f, RestShapes::OfDrawing, validity);
 		const Triangle& points = map.mesh.points[f];
 		const Point2 first = map.mesh.place[points[0]];
 		map.mesh.place[points[1]] = first + Point2{shape.base, 0.0};

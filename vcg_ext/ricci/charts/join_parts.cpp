@@ -69,23 +69,23 @@ public:
 			m_parts.forSides(f, [&](Corner side, Corner across) {
 				const int part = m_parts.partOf(f), other = m_parts.partOf(across.face());
 				if (part < other && m_parts.fits(m_parts.across(side), side))
-					add({side, m_chart.lengths[side]}, part, other);
+					add({side, m_chart.lengths[side], part, other});
 			});
 		for (int part = 0; part < m_borders.size(); ++part)
 			for (const auto& [other, borders] : m_borders[part])
 				for (const auto& [x, border] : *borders)
 					if (part < other)
-						m_open.push({border, part, other});
+						m_open.push(border);
 		while (!m_open.empty()) {
 			checkpoint();
-			Candidate next = m_open.top();
+			Border next = m_open.top();
 			m_open.pop();
 			if (!isPresent(next))
 				continue;
 			if (m_parts.size(next.part) > m_parts.size(next.other))
 				std::swap(next.part, next.other);
-			const Corner side = sideIn(next.part, next.border);
-			const Place place{next.other, m_parts.across(side), next.border.length};
+			const Corner side = sideIn(next.part, next);
+			const Place place{next.other, m_parts.across(side), next.length};
 			if (!m_parts.covering(next.part, place, [](int) { return true; }))
 				join(next.part, place);
 		}
@@ -95,21 +95,15 @@ private:
 	/// Sides of two parts that one motion brings to those across.
 	struct Border
 	{
-		Corner side;    ///< one of them
-		double length;  ///< of all, on the surface
-		double x = 0.0; ///< by which it is found
-	};
-
-	struct Candidate
-	{
-		Border border;
+		Corner side;   ///< one of them
+		double length; ///< of all, on the surface
 		int part, other;
+		double x = 0.0; ///< by which it is found
 
-		/// The shorter border comes later; of two as long, that of the later side.
-		bool operator<(const Candidate& c) const
+		/// The shorter one comes later; of two as long, that of the later side.
+		bool operator<(const Border& b) const
 		{
-			return border.length != c.border.length ? border.length < c.border.length
-													: border.side > c.border.side;
+			return length != b.length ? length < b.length : side > b.side;
 		}
 	};
 
@@ -123,8 +117,9 @@ private:
 	using Borders = std::multimap<double, Border>;
 
 	/// Adds a border to what two parts have in common. \return the border that it has become
-	Border add(const Border& added, int part, int other)
+	Border add(const Border& added)
 	{
+		const int part = added.part, other = added.other;
 		std::shared_ptr<Borders>& borders = m_borders[part][other];
 		if (!borders)
 			borders = m_borders[other][part] = std::make_shared<Borders>();
@@ -137,21 +132,24 @@ private:
 			return m_parts.fits(m_parts.across(sideIn(part, b.second)), side);
 		});
 		if (known == end)
-			known = borders->emplace(x, Border{added.side, added.length, x});
-		else
+			known = borders->emplace(x, Border{added.side, added.length, part, other, x});
+		else {
 			known->second.length += added.length;
+			known->second.part = part;
+			known->second.other = other;
+		}
 		return known->second;
 	}
 
 	/// Whether the parts still are two, with a border as long as it was.
-	bool isPresent(const Candidate& c) const
+	bool isPresent(const Border& border) const
 	{
-		const auto borders = m_borders[c.part].find(c.other);
-		if (borders == m_borders[c.part].end())
+		const auto borders = m_borders[border.part].find(border.other);
+		if (borders == m_borders[border.part].end())
 			return false;
-		const auto [first, end] = borders->second->equal_range(c.border.x);
+		const auto [first, end] = borders->second->equal_range(border.x);
 		return std::any_of(first, end, [&](const auto& b) {
-			return b.second.side == c.border.side && b.second.length == c.border.length;
+			return b.second.side == border.side && b.second.length == border.length;
 		});
 	}
 
@@ -166,7 +164,7 @@ private:
 				continue;
 			m_borders[other].erase(part);
 			for (const auto& [x, border] : *borders)
-				m_open.push({add(border, whole, other), whole, other});
+				m_open.push(add({border.side, border.length, whole, other}));
 		}
 		m_borders[part].clear();
 	}
@@ -175,7 +173,7 @@ private:
 	MovableParts& m_parts;
 	Box2 m_box;
 	Array<std::map<int, std::shared_ptr<Borders>>> m_borders; // [part] with each other part
-	std::priority_queue<Candidate> m_open;
+	std::priority_queue<Border> m_open;
 };
 
 /// Area below which a part is too small to stay.

@@ -154,27 +154,19 @@ Try place(
 	return result;
 }
 
-/// How outlines are drawn in cells, in the turns that they may have.
-struct ShapeRules
-{
-	int cells;   ///< along the side of the square
-	double side; ///< of the square
-	double reach;
-	int angles; ///< below a right one, in which those are drawn that turn freely
-};
-
 /// An outline in cells, in all its turns, as far as it fits into the square.
+/// \param drawing of the square
+/// \param count of angles below a right one, in which it is drawn if it turns freely
 /// \param byExtent first in the turn in which the square round it is smallest, if it turns freely
 std::vector<Shape>
-shapesOf(const Outline& outline, ChartTurns turns, const ShapeRules& rules, bool byExtent)
+shapesOf(const Outline& outline, ChartTurns turns, Drawing drawing, int count, bool byExtent)
 {
-	Drawing drawing(rules.cells, rules.side, rules.reach);
 	const bool isFree = turns == ChartTurns::Free;
 	std::vector<std::complex<double>> angles; // below a right one
 	if (isFree && byExtent)
 		angles.push_back(turnToMinExtent(outline));
-	for (int k = 0; k < (isFree ? rules.angles : 1); ++k)
-		angles.push_back(rationalTurn(k, rules.angles));
+	for (int k = 0; k < (isFree ? count : 1); ++k)
+		angles.push_back(rationalTurn(k, count));
 	std::vector<Shape> shapes;
 	for (std::complex<double> turn : angles)
 		for (int q = 0; q < (turns == ChartTurns::None ? 1 : 4);
@@ -198,6 +190,27 @@ std::int64_t sidesOf(const std::vector<Outline>& outlines)
 int anglesFor(std::size_t outlines)
 {
 	return std::clamp(256 / static_cast<int>(outlines), 2, kMaxAngles);
+}
+
+/// [outline] shapesOf() it.
+/// \param inSquare how many outlines a square holds
+/// \param isByExtent isByExtent(i) of each
+template<class IsByExtent>
+std::vector<std::vector<Shape>> shapesOf(
+	const std::vector<Outline>& outlines,
+	const std::vector<ChartTurns>& turns,
+	const Drawing& drawing,
+	std::size_t inSquare,
+	const IsByExtent& isByExtent)
+{
+	std::vector<std::vector<Shape>> shapes(outlines.size());
+	tasksInParallel(
+		static_cast<int>(outlines.size()), threadsFor(sidesOf(outlines)), [&](int number) {
+			const std::size_t i = positionOf(number);
+			shapes[i] =
+				shapesOf(outlines[i], turns[i], drawing, anglesFor(inSquare), isByExtent(i));
+		});
+	return shapes;
 }
 
 } // namespace
@@ -224,12 +237,9 @@ std::vector<Motion> packOutlines(
 	Order order = orderOf(outlines, side);
 	const std::size_t largest = order.front();
 	const int coarseSide = coarseCells(outlines.size()), fineSide = kFineInCoarse * coarseSide;
-	const ShapeRules rules{coarseSide, side, reach, anglesFor(outlines.size())};
-	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
-	tasksInParallel(
-		static_cast<int>(outlines.size()), threadsFor(sidesOf(outlines)), [&](int number) {
-			const std::size_t i = positionOf(number);
-			shapes[i] = shapesOf(outlines[i], turns[i], rules, i == largest);
+	std::vector<std::vector<Shape>> shapes = shapesOf(
+		outlines, turns, Drawing(coarseSide, side, reach), outlines.size(), [&](std::size_t i) {
+			return i == largest;
 		});
 	std::vector<std::size_t> firsts; // of the largest, below a right angle
 	for (std::size_t k = 0; k < shapes[largest].size(); ++k)
@@ -301,19 +311,16 @@ std::vector<std::pair<int, Motion>> packIntoTiles(
 		areas.push_back(areaOf(outline) / (side * side));
 	const double squares = std::max(1.0, std::accumulate(areas.begin(), areas.end(), 0.0));
 	const std::size_t inSquare = outlinesPerSquare(outlines.size(), squares);
-	const ShapeRules rules{
-		kFineInCoarse * coarseCells(inSquare), side, 0.5 * padding, anglesFor(inSquare)};
-	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
-	tasksInParallel(
-		static_cast<int>(outlines.size()), threadsFor(sidesOf(outlines)), [&](int number) {
-			const std::size_t i = positionOf(number);
-			shapes[i] = shapesOf(outlines[i], turns[i], rules, true);
+	const int cells = kFineInCoarse * coarseCells(inSquare);
+	const std::vector<std::vector<Shape>> shapes =
+		shapesOf(outlines, turns, Drawing(cells, side, 0.5 * padding), inSquare, [](std::size_t) {
+			return true;
 		});
 	std::vector<std::pair<int, Motion>> places(outlines.size());
 	Order left = orderOf(outlines, side);
-	Canvas canvas(rules.cells);
+	Canvas canvas(cells);
 	for (int tile = 0; !left.empty(); ++tile) {
-		Placer placer(side / rules.cells, canvas);
+		Placer placer(side / cells, canvas);
 		Order next;
 		double room = 1.0;
 		for (const std::size_t i : left) {
@@ -322,7 +329,7 @@ std::vector<std::pair<int, Motion>> packIntoTiles(
 			// An outline that covers itself may have a larger area than the square.
 			const bool isFirst = room == 1.0;
 			if ((areas[i] > room && !isFirst) ||
-				placer.put(shapes[i], rules.cells + 1, places[i].second) == 0) {
+				placer.put(shapes[i], cells + 1, places[i].second) == 0) {
 				next.push_back(i);
 				continue;
 			}

@@ -108,24 +108,21 @@ bool reflectFlipped(FlatMesh& chart)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// Where a cut is looked for along a rectangle, as shares of its length from its middle.
-struct CutBand
-{
-	double middle;         ///< where edges cost least
-	double width;          ///< to either side
-	double crumb = kCrumb; ///< share of a chart that is no part
-};
-
 /// The pieces of a chart that is not connected; else the least cut across its smallest bounding rectangle, in a band.
 /// Its length is weighed by the square that holds the longer part: an edge at the end of the rectangle costs four times
 /// as much as one in the middle. Crumbs go to the other part.
 /// \param triangles of the chart
+/// \param middle, width where the band is, and how wide to either side, as shares of the rectangle's length from its
+/// middle: there edges cost least
+/// \param crumb share of the chart that is no part
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<ChartCut> halves(
 	const FlatMesh& mesh,
 	const std::vector<int>& triangles,
 	const OrientedRectangle& r,
-	const CutBand& band)
+	double middle,
+	double width,
+	double crumb)
 {
 	DualGraph graph(mesh);
 	ChartCut cut{graph.connectedPieces(triangles)};
@@ -136,7 +133,7 @@ std::optional<ChartCut> halves(
 	for (const int i : triangles) {
 		double first = 0.5, last = -0.5;
 		for (const Point2& p : mesh.at(i)) {
-			const double at = (r.inFrame(p)[0] - r.min[0]) / r.width() - 0.5 - band.middle;
+			const double at = (r.inFrame(p)[0] - r.min[0]) / r.width() - 0.5 - middle;
 			first = std::min(first, at);
 			last = std::max(last, at);
 		}
@@ -153,7 +150,7 @@ std::optional<ChartCut> halves(
 	const auto end = apart.begin() +
 					 static_cast<std::ptrdiff_t>(std::min(count - 1.0, kBand * std::sqrt(count)));
 	std::nth_element(apart.begin(), end, apart.end());
-	const double width = std::min(band.width, *end);
+	width = std::min(width, *end);
 	std::vector<int> left, right;
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		if (std::abs(along[i]) > width)
@@ -170,8 +167,8 @@ std::optional<ChartCut> halves(
 	};
 	cut.pieces = graph.connectedPieces(triangles);
 	std::vector<double> areas = areasOf(cut.pieces);
-	const double crumb = band.crumb * std::accumulate(areas.begin(), areas.end(), 0.0);
-	const auto isCrumb = [&](double area) { return area < crumb; };
+	const double least = crumb * std::accumulate(areas.begin(), areas.end(), 0.0);
+	const auto isCrumb = [&](double area) { return area < least; };
 	if (std::any_of(areas.begin(), areas.end(), isCrumb)) {
 		for (std::size_t p = 0; p < areas.size(); ++p)
 			if (isCrumb(areas[p]))
@@ -198,7 +195,7 @@ acrossRectangle(const FlatMesh& mesh, const std::vector<int>& triangles, const O
 	std::optional<ChartCut> cut;
 	for (const double from : kCutFrom)
 		if (!cut)
-			cut = halves(mesh, triangles, r, {0.0, 0.5 - from});
+			cut = halves(mesh, triangles, r, 0.0, 0.5 - from, kCrumb);
 	return cut;
 }
 
@@ -220,14 +217,14 @@ std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 
 } // namespace
 
-void countCuts(const Seams& before, Parametrization& map)
+void countCuts(const EdgeSet& before, Parametrization& map)
 {
-	const Seams after = seams(map.mesh);
-	const std::set<Corner> old(before.edges.begin(), before.edges.end());
+	const EdgeSet after = seams(map.mesh);
+	const std::set<Corner> old(before.sides.begin(), before.sides.end());
 	int cut = 0;
-	for (const Corner side : after.edges)
+	for (const Corner side : after.sides)
 		cut += old.count(side) == 0;
-	const int joined = static_cast<int>(before.edges.size() - after.edges.size()) + cut;
+	const int joined = static_cast<int>(before.sides.size() - after.sides.size()) + cut;
 	map.report.overlapCuts += cut;
 	map.report.seamEdges = std::max(0, map.report.seamEdges - joined);
 	map.report.seamLength += after.length - before.length;
@@ -237,7 +234,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided; // numbers of the parts
-	Seams before;             // once there are parts
+	EdgeSet before;           // once there are parts
 	const auto add = [&](const std::vector<int>& triangles, Chart chart) {
 		for (const int f : triangles)
 			map.mesh.chart[f] = static_cast<int>(charts.size());
@@ -310,12 +307,11 @@ findCutToFit(const FlatMesh& mesh, const std::vector<int>& triangles, double lon
 				 edge = std::sqrt(width * r.height() / static_cast<double>(triangles.size())),
 				 parts = std::ceil((width + edge) / longest), left = std::floor(0.5 * parts);
 	const double last = left * longest / width, first = 1.0 - (parts - left) * longest / width;
-	CutBand band{0.5 * (first + last) - 0.5, 0.5 * (last - first)};
-	std::optional<ChartCut> cut = halves(mesh, triangles, r, band);
+	const double middle = 0.5 * (first + last) - 0.5, half = 0.5 * (last - first);
+	std::optional<ChartCut> cut = halves(mesh, triangles, r, middle, half, kCrumb);
 	if (!cut)
 		cut = acrossRectangle(mesh, triangles, r);
-	band.crumb = 0.0;
-	return cut ? cut : halves(mesh, triangles, r, band);
+	return cut ? cut : halves(mesh, triangles, r, middle, half, 0.0);
 }
 
 std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onSurface)
@@ -386,7 +382,7 @@ void cutOff(const std::vector<int>& triangles, Parametrization& map)
 		graph.part[f] = ++off;
 		charts.insert(map.mesh.chart[f]);
 	}
-	const Seams before = seams(map.mesh);
+	const EdgeSet before = seams(map.mesh);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (const int c : charts)

@@ -13,7 +13,7 @@ namespace ricci {
 
 /// Counts in the report, as overlapCuts and in its seamLength, by what the seams have grown since they were
 /// \p before.
-void countCuts(const Seams& before, Parametrization& map);
+void countCuts(const EdgeSet& before, Parametrization& map);
 
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
 /// parts of divideChart(), joined again by joinParts() across seams where they fit, each from the
@@ -29,7 +29,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map);
 /// \pre no chart overlaps itself
 void joinCharts(Parametrization& map);
 
-/// Seams may grow by one part for this many parts more of covered square: the worth of a map is
+/// EdgeSet may grow by one part for this many parts more of covered square: the worth of a map is
 /// log(occupancy) - kPackingPrice log(sqrt(area) + seams), up to a constant.
 constexpr double kPackingPrice = 2.3;
 

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../base/tolerances.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -13,9 +14,6 @@
 namespace ricci {
 
 namespace {
-
-/// The share of a bound that rounding must not add to it.
-constexpr double kBoundSlack = 1e-6;
 
 /// An entry of the inverse, or what a row adds to the rank, is one of rounding below this share of what
 /// it is the difference of.
@@ -350,7 +348,8 @@ ConeModel::Reach ConeModel::reachOf(Vertex v) const
 double ConeModel::minOwnProduct(const Reach& reach) const
 {
 	const auto known = m_ownProduct.find(reach.vertex);
-	return known != m_ownProduct.end() ? known->second : (1.0 - kBoundSlack) * reach.span;
+	// Rounding must not raise the bound.
+	return known != m_ownProduct.end() ? known->second : (1.0 - kSmall) * reach.span;
 }
 
 /// A bound from below of the energy with cone \p i there instead, by the minimum without bounds of

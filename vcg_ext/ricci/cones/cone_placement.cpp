@@ -38,10 +38,8 @@ constexpr int kMaxSearched = 20000, kMaxAggregates = 12000;
 /// cones move on the surface itself.
 constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 
-/// Steps that fit the curvatures found on aggregates to the surface, and the share of the energy below which
-/// a gain is none.
+/// Steps that fit the curvatures found on aggregates to the surface.
 constexpr int kMaxFitSteps = 20;
-constexpr double kNoGain = 1e-6;
 
 void checkCount(const TargetRequest& request, int least, const ConeSites& sites)
 {
@@ -315,7 +313,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 			return;
 		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
 		double gain = rest.dot(step);
-		for (int i = 0; i < kMaxFitSteps && gain > kNoGain * flow.meanSquare(u); ++i) {
+		for (int i = 0; i < kMaxFitSteps && gain > kSmall * flow.meanSquare(u); ++i) {
 			const Eigen::VectorXd pull = slope(flow.solve(spread(way)));
 			const double length = gain / way.dot(pull);
 			k += length * way;

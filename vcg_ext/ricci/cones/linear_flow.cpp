@@ -8,6 +8,7 @@
 #include "../metric/circle_packing.h"
 #include "../metric/geometry.h"
 #include "../numerics/aggregation.h"
+#include "../numerics/preconditioner.h"
 
 #include <Eigen/IterativeLinearSolvers>
 
@@ -27,7 +28,7 @@ std::shared_ptr<const CurvatureMap> mapOf(const InitialPacking& packing)
 	for (const Vertex v : packing.radii.indices())
 		u[v] = std::log(packing.radii[v]);
 	auto map = std::make_shared<GeometricCurvatureMap<Euclidean>>(
-		CirclePacking{packing.mesh.triangulation, packing.delta});
+		packing.mesh.triangulation, packing.delta);
 	map->evaluate(u);
 	return map;
 }
@@ -276,46 +277,6 @@ constexpr double kStiffer = 3.0;
 constexpr int kMaxSizeSteps = 50;
 constexpr double kSizeAccuracy = 0.03;
 
-/// Their preconditioner: the diagonal and, for what is smooth, the equation on aggregates.
-class TwoLevels
-{
-public:
-	void attach(const LinearSystem& fine, const Array<int>& aggregate, LinearFlow& coarse)
-	{
-		m_diagonal = fine.laplacian.diagonal();
-		m_aggregate = &aggregate;
-		m_coarse = &coarse;
-	}
-
-	template<class Any>
-	TwoLevels& compute(const Any&)
-	{
-		return *this;
-	}
-	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
-	{
-		checkpoint();
-		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
-		for (const int v : m_aggregate->indices())
-			sums[Vertex((*m_aggregate)[v])] += rest[v];
-		// Of the two solutions the one that is symmetric: no mean is taken off.
-		const VertexVector smooth = m_coarse->gradient(sums.cwiseQuotient(m_coarse->area()));
-		Eigen::VectorXd solution = rest.cwiseQuotient(m_diagonal);
-		for (const int v : m_aggregate->indices())
-			solution[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
-		return solution;
-	}
-	Eigen::ComputationInfo info() { return Eigen::Success; }
-
-private:
-	Eigen::VectorXd m_diagonal;
-	const Array<int>* m_aggregate = nullptr;
-	LinearFlow* m_coarse = nullptr;
-};
-
-/// Less curvature than this in all, radians, is one of rounding.
-constexpr double kNoCurvature = 1e-6;
-
 /// Size of the factors that flatten the surface over that on aggregates: to about a percent, and to some percent
 /// where vertices have been taken together several times, which is a worse preconditioner.
 double softnessOf(
@@ -325,11 +286,25 @@ double softnessOf(
 	LinearFlow& coarse)
 {
 	const VertexVector rhs = flattening(fine);
-	if (rhs.lpNorm<1>() < kNoCurvature)
-		return kStiffer;
-	Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, TwoLevels>
-		gradients;
-	gradients.preconditioner().attach(fine, aggregate, coarse);
+	if (rhs.lpNorm<1>() < kSmall)
+		return kStiffer; // the surface is flat but for rounding
+	Eigen::
+		ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, Preconditioner>
+			gradients;
+	// By the diagonal and, for what is smooth, the equation on aggregates.
+	const Eigen::VectorXd diagonal = fine.laplacian.diagonal();
+	gradients.preconditioner().solve = [&](const Eigen::VectorXd& rest) {
+		checkpoint();
+		VertexVector sums = VertexVector::Zero(coarse.vertexCount());
+		for (const int v : aggregate.indices())
+			sums[Vertex(aggregate[v])] += rest[v];
+		// Of the two solutions the one that is symmetric: no mean is taken off.
+		const VertexVector smooth = coarse.gradient(sums.cwiseQuotient(coarse.area()));
+		Eigen::VectorXd solution = rest.cwiseQuotient(diagonal);
+		for (const int v : aggregate.indices())
+			solution[v] += kStiffer * smooth[Vertex(aggregate[v])];
+		return solution;
+	};
 	gradients.setTolerance(kSizeAccuracy);
 	gradients.setMaxIterations(kMaxSizeSteps);
 	gradients.compute(fine.laplacian);

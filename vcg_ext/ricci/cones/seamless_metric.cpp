@@ -376,21 +376,18 @@ private:
 	changed(const Metric& metric, const EdgeArray<double>& change, double share)
 	{
 		const CurvatureMap& map = *metric.map;
-		CirclePacking packing;
-		packing.triangulation = map.triangulation();
-		packing.delta = map.delta();
+		EdgeArray<double> delta = map.delta();
 		for (const Edge e : change.indices()) {
 			if (change[e] == 0.0)
 				continue;
 			const auto [i, j] = map.triangulation().ends(e);
 			const double length = map.lengths()[e] * std::exp(share * change[e]);
-			packing.delta[e] =
-				Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
-			if (!(packing.delta[e] >= 0.0))
+			delta[e] = Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
+			if (!(delta[e] >= 0.0))
 				return std::nullopt;
 		}
 		const std::shared_ptr<CurvatureMap> next =
-			curvatureMap(std::move(packing), Background::EuclideanPlane, true);
+			curvatureMap(map.triangulation(), std::move(delta), Background::EuclideanPlane, true);
 		Metric result;
 		result.u = metric.u;
 		const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {

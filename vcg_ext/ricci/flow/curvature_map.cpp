@@ -26,11 +26,11 @@ void release(T& workSpace)
 
 } // namespace
 
-CurvatureMap::CurvatureMap(CirclePacking packing) :
-		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices()),
-		m_threads(defaultThreads())
+CurvatureMap::CurvatureMap(Triangulation triangulation, EdgeArray<double> delta) :
+		m_triangulation(std::move(triangulation)), m_delta(std::move(delta)),
+		m_boundary(m_triangulation.boundaryVertices()), m_threads(defaultThreads())
 {
-	const Triangulation& t = m_packing.triangulation;
+	const Triangulation& t = m_triangulation;
 	m_curvature.resize(t.vertexCount());
 	m_lengths.resize(t.edgeCount());
 	m_weights.resize(t.edgeCount());
@@ -40,8 +40,8 @@ CurvatureMap::CurvatureMap(CirclePacking packing) :
 
 void CurvatureMap::swapEdge(Edge e, double delta)
 {
-	m_packing.triangulation.flip(e);
-	m_packing.delta[e] = delta;
+	m_triangulation.flip(e);
+	m_delta[e] = delta;
 	++m_revision;
 }
 
@@ -56,15 +56,16 @@ void CurvatureMap::reject()
 {
 	if (!m_journal.empty())
 		++m_revision;
-	rewind(m_journal, m_packing.triangulation, m_packing.delta);
+	rewind(m_journal, m_triangulation, m_delta);
 }
 
 template<class Geometry>
-GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing, bool flips) :
-		CurvatureMap(std::move(packing)), m_flipsEdges(flips),
-		m_circles(m_packing.triangulation.vertexCount()),
-		m_excess(m_packing.triangulation.edgeCount()), m_ratio(m_packing.triangulation.edgeCount()),
-		m_halfWeights(m_packing.triangulation.halfedgeCount(), 0.0)
+GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(
+	Triangulation triangulation, EdgeArray<double> delta, bool flips) :
+		CurvatureMap(std::move(triangulation), std::move(delta)),
+		m_flipsEdges(flips), m_circles(m_triangulation.vertexCount()),
+		m_excess(m_triangulation.edgeCount()), m_ratio(m_triangulation.edgeCount()),
+		m_halfWeights(m_triangulation.halfedgeCount(), 0.0)
 {
 }
 
@@ -106,8 +107,8 @@ void GeometricCurvatureMap<Geometry>::flipToDelaunay()
 	m_kappa.resize(m_circles.size());
 	for (const Vertex v : m_kappa.indices())
 		m_kappa[v] = m_circles[v].kappa;
-	const int flips = makeWeightedDelaunay(
-		m_packing.triangulation, m_packing.delta, m_kappa, m_journal, m_queue, m_threads);
+	const int flips =
+		makeWeightedDelaunay(m_triangulation, m_delta, m_kappa, m_journal, m_queue, m_threads);
 	if (flips > 0)
 		++m_revision;
 }
@@ -115,12 +116,12 @@ void GeometricCurvatureMap<Geometry>::flipToDelaunay()
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateEdges()
 {
-	const Triangulation& t = m_packing.triangulation;
+	const Triangulation& t = m_triangulation;
 	inParallel(t.edgeCount(), m_threads, [&](int first, int last) {
 		for (const Edge e : IndexRange<Edge>(first, last)) {
 			const auto& i = m_circles[t.origin(e.halfedge())];
 			const auto& j = m_circles[t.target(e.halfedge())];
-			const auto edge = Geometry::edge(i, j, m_packing.delta[e]);
+			const auto edge = Geometry::edge(i, j, m_delta[e]);
 			m_lengths[e] = edge.length;
 			m_cosineLess1[e] = edge.cosineLess1;
 			m_excess[e] = edge.excess;
@@ -132,7 +133,7 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 {
-	const Triangulation& t = m_packing.triangulation;
+	const Triangulation& t = m_triangulation;
 	m_broken = 0;
 	m_needleRatio = 1.0;
 	std::mutex summary;
@@ -173,7 +174,7 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 template<class Geometry>
 bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRatio)
 {
-	const Triangulation& t = m_packing.triangulation;
+	const Triangulation& t = m_triangulation;
 	// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
 	const std::array<Halfedge, 3> h = t.halfedges(f);
 	std::array<Vertex, 3> vertex;
@@ -209,7 +210,7 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 
 	std::array<double, 3> inversive, radius, kappa;
 	for (std::size_t k = 0; k < 3; ++k) {
-		inversive[k] = 1.0 + m_packing.delta[edge[k]];
+		inversive[k] = 1.0 + m_delta[edge[k]];
 		radius[k] = m_circles[vertex[k]].s;
 		kappa[k] = m_circles[vertex[k]].kappa;
 	}
@@ -220,7 +221,7 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 		// Derivative of the angle at i by u_j, side ij = side k, apex m.
 		const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
 		const double ij = inversive[k], jm = inversive[j], mi = inversive[m];
-		const double d = m_packing.delta[edge[k]];
+		const double d = m_delta[edge[k]];
 		const double height =
 			kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2.0);
 		m_halfWeights[h[k]] = factor * m_ratio[edge[k]] * height;
@@ -235,11 +236,14 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 template class GeometricCurvatureMap<Euclidean>;
 template class GeometricCurvatureMap<Hyperbolic>;
 
-std::shared_ptr<CurvatureMap> curvatureMap(CirclePacking packing, Background background, bool flips)
+std::shared_ptr<CurvatureMap> curvatureMap(
+	Triangulation triangulation, EdgeArray<double> delta, Background background, bool flips)
 {
 	if (background == Background::EuclideanPlane)
-		return std::make_shared<GeometricCurvatureMap<Euclidean>>(std::move(packing), flips);
-	return std::make_shared<GeometricCurvatureMap<Hyperbolic>>(std::move(packing), flips);
+		return std::make_shared<GeometricCurvatureMap<Euclidean>>(
+			std::move(triangulation), std::move(delta), flips);
+	return std::make_shared<GeometricCurvatureMap<Hyperbolic>>(
+		std::move(triangulation), std::move(delta), flips);
 }
 
 namespace {

@@ -13,7 +13,8 @@
 
 namespace ricci {
 
-/// The map u -> K(u) of a circle packing (Eqs 1, 2, 4), the gradient of the convex Ricci energy
+/// The map u -> K(u) of a discrete conformal class (Definition 3.5), which is a triangulation and an inversive
+/// distance on each edge, by a circle at each vertex (Eqs 1, 2, 4): the gradient of the convex Ricci energy
 /// (Eq. 10; its sign as printed is that of a concave one), together with its derivative, the
 /// Hessian of the energy (Eqs 7-9, 11, 12). The one seam between the flow and its background
 /// geometry: Newton's method sees only this class.
@@ -38,8 +39,9 @@ public:
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
 
-	const Triangulation& triangulation() const { return m_packing.triangulation; }
-	const EdgeArray<double>& delta() const { return m_packing.delta; }
+	const Triangulation& triangulation() const { return m_triangulation; }
+	/// I - 1 for the inversive distance I; at least 0 where circles are tangent or disjoint.
+	const EdgeArray<double>& delta() const { return m_delta; }
 
 	/// K in radians: 2 pi (pi on the boundary) less the angles at the vertex (Eq. 2).
 	const VertexVector& curvature() const { return m_curvature; }
@@ -87,9 +89,10 @@ public:
 	void swapEdge(Edge e, double delta);
 
 protected:
-	explicit CurvatureMap(CirclePacking packing);
+	CurvatureMap(Triangulation triangulation, EdgeArray<double> delta);
 
-	CirclePacking m_packing;
+	Triangulation m_triangulation;
+	EdgeArray<double> m_delta;
 	FlipJournal m_journal; // since the last accept()
 	VertexArray<char> m_boundary;
 	VertexVector m_curvature;
@@ -111,7 +114,7 @@ public:
 	/// keep the conformal class (conformal_flip.h); else it stays. K(u) then is continuously differentiable
 	/// for all u, no triangle breaks, and all weights are non-negative (off the boundary, whose edges stay):
 	/// in the Euclidean plane [Bobenko Lutz 2023], in the hyperbolic plane [Bobenko Lutz 2023b].
-	explicit GeometricCurvatureMap(CirclePacking packing, bool flips = false);
+	GeometricCurvatureMap(Triangulation triangulation, EdgeArray<double> delta, bool flips = false);
 
 	using CurvatureMap::evaluate;
 	void evaluate(const VertexVector& u, const VertexVector& low) override;
@@ -134,10 +137,10 @@ private:
 	DelaunayQueue m_queue;
 };
 
-/// The map of \p packing in \p background.
+/// The map in \p background.
 /// \param flips see GeometricCurvatureMap
-std::shared_ptr<CurvatureMap>
-curvatureMap(CirclePacking packing, Background background, bool flips);
+std::shared_ptr<CurvatureMap> curvatureMap(
+	Triangulation triangulation, EdgeArray<double> delta, Background background, bool flips);
 
 /// The derivative of the curvature by u (Eq. 11), the Hessian of the Ricci energy, restricted to
 /// the unknown vertices: -w_ij off the diagonal, the sum of w_ij cosh l_ij on it (in the Euclidean

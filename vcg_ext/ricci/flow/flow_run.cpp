@@ -240,7 +240,8 @@ void FlowRun::begin()
 {
 	m_result.u = m_startU = startU();
 	m_map = curvatureMap(
-		{m_result.start.mesh.triangulation, m_result.start.delta},
+		m_result.start.mesh.triangulation,
+		m_result.start.delta,
 		m_result.target.background,
 		m_options.method == Method::IntrinsicFlips);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
@@ -360,15 +361,11 @@ NewtonResult FlowRun::solveOnCircle()
 
 NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
 {
-	NewtonOptions newtonOptions;
-	newtonOptions.epsilon = epsilon;
-	newtonOptions.maxIterations = m_maxSteps;
-	newtonOptions.polishes = polishes;
 	const int before = m_result.iterations;
 	return m_newton->solve(
 		m_result.u,
 		m_result.target.curvature,
-		newtonOptions,
+		{epsilon, m_maxSteps, polishes},
 		[&](int step, double residual) {
 			m_result.iterations = before + step;
 			m_progress(m_result.iterations, residual);
@@ -418,15 +415,14 @@ std::vector<double> FlowRun::presentLoopLengths() const
 	for (const Edge e : m_map->flips())
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();
-	Strip strip;
+	std::vector<std::array<Point2, 2>> crossed;
 	for (std::size_t i = 0; i < lengths.size(); ++i) {
 		const NormalCoordinates::Curve& curve = curves[edges[i]];
 		if (curve.crossings.empty()) {
 			lengths[i] = m_map->lengths()[curve.first.edge()];
 			continue;
 		}
-		unfold(m_map->triangulation(), m_map->lengths(), curve, strip);
-		lengths[i] = std::hypot(strip.end[0], strip.end[1]);
+		lengths[i] = length(unfold(m_map->triangulation(), m_map->lengths(), curve, crossed));
 	}
 	return lengths;
 }

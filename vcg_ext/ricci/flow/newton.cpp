@@ -54,10 +54,6 @@ int solutionsPerFactorization(const SparseCholesky& cholesky)
 	return static_cast<int>(std::clamp(quotient, double(kMinIterations), double(kMaxIterations)));
 }
 
-/// Angles and their sums are kept as doubles in any case: a dozen angles, the sums of which are up to 2
-/// pi and round by up to two epsilons each.
-constexpr double kSumRounding = 24.0 * std::numeric_limits<double>::epsilon();
-
 } // namespace
 
 NewtonSolver::NewtonSolver(
@@ -156,7 +152,9 @@ double NewtonSolver::roundingFloor()
 	}
 	double amplification = m_map->needleRatio();
 	amplification = std::max(amplification, m_diagonal.maxCoeff());
-	return 4.0 * kUnitRoundoff * amplification + kSumRounding;
+	// Angles and their sums are kept as doubles in any case: a dozen angles, the sums of which are up to 2 pi and round
+	// by up to two units each.
+	return 4.0 * kUnitRoundoff * amplification + 24.0 * kUnitRoundoff;
 }
 
 /// One call of solve().

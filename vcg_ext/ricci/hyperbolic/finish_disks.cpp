@@ -144,7 +144,7 @@ bool divideDisks(Parametrization& map)
 	}
 	if (disks == map.charts.size())
 		return false;
-	const Seams before = seams(mesh);
+	const EdgeSet before = seams(mesh);
 	for (std::size_t c = 0; c < triangles.size(); ++c) {
 		const int more = static_cast<int>(map.charts.size()) - 1;
 		for (std::size_t i = 0; i < triangles[c].size() && cells[c].centre.size() > 1; ++i)
@@ -173,7 +173,7 @@ bool separateDisks(Parametrization& map)
 	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(map.charts.size());
 	const std::size_t disks = triangles.size();
 	std::vector<ExtendedIsometry> places(disks); // [chart] moves the points there
-	Seams before;
+	EdgeSet before;
 	for (std::size_t c = 0; c < disks; ++c) {
 		checkpoint();
 		const FlatMesh chart = mesh.part(triangles[c]);

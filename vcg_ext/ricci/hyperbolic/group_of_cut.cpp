@@ -220,66 +220,39 @@ FuchsianGroup fuchsianGroup(
 
 namespace {
 
-/// The ways round the vertices and the boundary loops.
-class WaysRound
+/// What remains of the way round the origin of \p first, or round the boundary loop through it, in the frame at the
+/// corner of \p first, which is not exterior.
+ExtendedIsometry
+wayRound(const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout, Halfedge first)
 {
-public:
-	WaysRound(const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout) :
-			m_t(t), m_cut(cut), m_pairing(layout.pairing), m_layout(layout.corners)
-	{
-	}
-
-	/// What remains of the way round the origin of \p first, or round the boundary loop through it, in
-	/// the frame at the corner of \p first. No exterior halfedge.
-	ExtendedIsometry from(Halfedge first) const
-	{
-		ExtendedIsometry round;
-		Halfedge h = first;
-		do
-			h = step(h, round);
-		while (h != first);
-		return round;
-	}
-
-	/// Hyperbolic length of the edges of the boundary loop of the exterior halfedge \p first.
-	double lengthFrom(Halfedge first) const
-	{
-		double length = 0.0;
-		for (const Halfedge h : m_t.loop(first)) {
-			const Halfedge inside = h.twin();
-			length +=
-				distanceInDisk(asComplex(m_layout[inside]), asComplex(m_layout[m_t.next(inside)]));
-		}
-		return length;
-	}
-
-private:
-	ExtendedIsometry place(Halfedge h) const
-	{
-		return ExtendedIsometry::translationTo(asComplex(m_layout[h]));
-	}
-
-	/// To the next corner, counter-clockwise; along the boundary to that of its next vertex.
-	Halfedge step(Halfedge h, ExtendedIsometry& round) const
-	{
-		const Halfedge in = m_t.previous(h), out = in.twin();
-		if (m_t.isExterior(out)) {
+	const auto place = [&](Halfedge h) {
+		return ExtendedIsometry::translationTo(asComplex(layout.corners[h]));
+	};
+	ExtendedIsometry round;
+	Halfedge h = first;
+	do { // to the next corner, counter-clockwise; along the boundary to that of its next vertex
+		const Halfedge in = t.previous(h), out = in.twin();
+		const bool isAlong = t.isExterior(out);
+		if (isAlong)
 			round = round * (place(h).inverse() * place(in));
-			return in;
-		}
-		if (m_cut.isCut[in.edge()]) {
-			const SidePairing side = across(in, m_pairing);
+		else if (cut.isCut[in.edge()]) {
+			const SidePairing side = across(in, layout.pairing);
 			round =
 				round * ((place(h).inverse() * side.left) * (side.right.inverse() * place(out)));
 		}
-		return out;
-	}
+		h = isAlong ? in : out;
+	} while (h != first);
+	return round;
+}
 
-	const Triangulation& m_t;
-	const CutGraph& m_cut;
-	const EdgeArray<SidePairing>& m_pairing;
-	const PlanarLayout& m_layout;
-};
+/// Hyperbolic length of the edges of the boundary loop of the exterior halfedge \p first.
+double loopLength(const Triangulation& t, const PlanarLayout& layout, Halfedge first)
+{
+	double length = 0.0;
+	for (const Halfedge h : t.loop(first))
+		length += distanceInDisk(asComplex(layout[h.twin()]), asComplex(layout[t.next(h.twin())]));
+	return length;
+}
 
 bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 {
@@ -293,7 +266,6 @@ bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 double closingError(
 	const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout, const Target& target)
 {
-	const WaysRound ways(t, cut, layout);
 	double error = 0.0;
 	VertexArray<char> seen = t.boundaryVertices();
 	for (const Halfedge h : t.interiorHalfedges()) {
@@ -301,10 +273,10 @@ double closingError(
 		if (!cut.isCut[h.edge()] || seen[v])
 			continue;
 		seen[v] = 1;
-		const ExtendedIsometry round = ways.from(h);
+		const ExtendedIsometry round = wayRound(t, cut, layout, h);
 		const DoubleDouble missed =
 			cut.cones[v]
-				? abs(abs(round.trace()) - 2 * abs(sineAndCosine(0.5 * target.curvature[v]).cosine))
+				? abs(abs(round.trace()) - 2 * abs(turnBy(0.5 * target.curvature[v]).real()))
 				: 2 * round.distanceFromIdentity();
 		error = std::max(error, static_cast<double>(missed));
 	}
@@ -315,10 +287,10 @@ double closingError(
 		if (!isGeodesic(loop, target))
 			continue;
 		// The trace is 2 cosh(L / 2).
-		const DoubleDouble half = 0.5 * abs(ways.from(first.twin()).trace());
+		const DoubleDouble half = 0.5 * abs(wayRound(t, cut, layout, first.twin()).trace());
 		const auto sine2 = static_cast<double>((half - 1) * (half + 1));
 		const double translation = 2.0 * std::asinh(std::sqrt(std::max(sine2, 0.0)));
-		error = std::max(error, std::abs(translation - ways.lengthFrom(first)));
+		error = std::max(error, std::abs(translation - loopLength(t, layout.corners, first)));
 	}
 	return error;
 }

@@ -185,12 +185,12 @@ std::vector<Point3> FlatMesh::onSurface(const std::vector<Point3>& positions) co
 	return places;
 }
 
-Seams seams(const FlatMesh& mesh)
+EdgeSet seams(const FlatMesh& mesh)
 {
-	Seams sum;
+	EdgeSet sum;
 	for (const Corner side : mesh.across.indices())
 		if (mesh.across[side] > side && !mesh.joined(side).isValid()) {
-			sum.edges.push_back(side);
+			sum.sides.push_back(side);
 			sum.length += mesh.lengths[side];
 		}
 	return sum;

@@ -93,12 +93,7 @@ struct FlatMesh
 };
 
 /// Edges of the surface whose two sides are not joined, in one chart or two.
-struct Seams
-{
-	std::vector<Corner> edges; ///< one side of each
-	double length = 0.0;       ///< on the surface, each edge once
-};
-Seams seams(const FlatMesh& mesh);
+EdgeSet seams(const FlatMesh& mesh);
 
 /// Renumbers the points: two corners are one point if a chain of triangles with joined sides connects
 /// them, at the place of the first of them. Points are in the order of their first corners.

@@ -23,38 +23,18 @@ namespace {
 /// Of the root of a surface's area: a texel of the largest texture, of 16384 texels, whose charts fill it.
 constexpr double kTexel = 0x1p-14;
 
-/// A triangle in space laid out in the plane, its first corner at 0, the second on the positive real
-/// axis.
-struct LaidOutTriangle
+/// The apex is no number where the base is 0.
+TriangleShape shapeOf(const std::array<Point3, 3>& p)
 {
-	double base;
-	std::complex<double> apex;
+	const Point3 a = p[1] - p[0], b = p[2] - p[0], normal = cross(a, b);
+	const double base = length(a);
+	return {base, {dot(a, b) / base, std::hypot(normal[0], normal[1], normal[2]) / base}};
+}
 
-	explicit LaidOutTriangle(const std::array<Point3, 3>& p)
-	{
-		const Point3 a = p[1] - p[0], b = p[2] - p[0], normal = cross(a, b);
-		base = length(a);
-		apex = {dot(a, b) / base, std::hypot(normal[0], normal[1], normal[2]) / base};
-	}
-
-	explicit LaidOutTriangle(const std::array<double, 3>& sides)
-	{
-		base = sides[0];
-		apex = asComplex(triangleApex(base, sides[2], sides[1]));
-	}
-
-	double area() const { return base > 0.0 ? 0.5 * base * apex.imag() : 0.0; }
-
-	bool hasShape() const
-	{
-		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
-		return base > 0.0 && base * apex.imag() > kTiny * longest * longest;
-	}
-};
-
-double distortionOf(const LaidOutTriangle& own, const Triangle2& plane)
+double distortionOf(const TriangleShape& own, const Triangle2& plane)
 {
-	if (!own.hasShape())
+	const double longest = own.longestSide();
+	if (!(own.base > 0.0 && own.base * own.apex.imag() > kTiny * longest * longest))
 		return std::numeric_limits<double>::quiet_NaN();
 	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
 	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
@@ -89,7 +69,8 @@ Triangle2 chordTriangle(const Triangle2& p)
 
 double triangleArea(const std::array<Point3, 3>& p)
 {
-	return LaidOutTriangle(p).area();
+	const TriangleShape shape = shapeOf(p);
+	return shape.base > 0.0 ? shape.area() : 0.0;
 }
 
 std::vector<double> triangleAreas(
@@ -113,7 +94,7 @@ std::vector<double> triangleAreas(
 
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane)
 {
-	return distortionOf(LaidOutTriangle(surface), plane);
+	return distortionOf(shapeOf(surface), plane);
 }
 
 DistortionReport areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
@@ -174,7 +155,7 @@ Distortion measured(
 	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
 	inParallel(vertices.size(), defaultThreads(), [&](int first, int last) {
 		for (std::size_t f = positionOf(first); f < positionOf(last); ++f) {
-			const LaidOutTriangle triangle = own(f);
+			const TriangleShape triangle = own(f);
 			faceQC[f] = distortionOf(triangle, plane.values()[f]);
 			if (!std::isfinite(faceQC[f]))
 				continue;
@@ -227,7 +208,7 @@ Distortion measureDistortion(
 {
 	const auto own = [&](std::size_t f) {
 		const Triangle& t = vertices.values()[f];
-		return LaidOutTriangle(
+		return shapeOf(
 			{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
 	};
 	return measured(vertices, surface.size(), own, plane);
@@ -235,7 +216,10 @@ Distortion measureDistortion(
 
 Distortion measureDistortion(const FlatMesh& mesh, const Array<Triangle2>& plane)
 {
-	const auto own = [&](std::size_t f) { return LaidOutTriangle(mesh.lengths.values()[f]); };
+	const auto own = [&](std::size_t f) -> TriangleShape {
+		const std::array<double, 3>& sides = mesh.lengths.values()[f];
+		return {sides[0], asComplex(triangleApex(sides[0], sides[2], sides[1]))};
+	};
 	return measured(mesh.vertices, mesh.source.values().size(), own, plane);
 }
 
@@ -255,20 +239,26 @@ int flippedInDisk(const FlatMesh& mesh)
 	return flipped;
 }
 
-FlippedCount countFlipped(const FlatMesh& mesh)
+int countFlipped(const FlatMesh& mesh)
 {
-	FlippedCount count;
+	int flipped = 0;
+	for (const int f : mesh.points.indices())
+		flipped += orientation(mesh.at(f)) <= 0;
+	return flipped;
+}
+
+int countFlippedByRounding(const FlatMesh& mesh)
+{
 	const auto rounded = [](const Point2& p) {
 		return Point2{roundedToFloat(p[0]), roundedToFloat(p[1])};
 	};
+	int flipped = 0;
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 p = mesh.at(f);
-		if (orientation(p) <= 0)
-			++count.faces;
-		else
-			count.byRounding += orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) <= 0;
+		flipped +=
+			orientation(p) > 0 && orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) <= 0;
 	}
-	return count;
+	return flipped;
 }
 
 std::vector<int> unseenTriangles(const FlatMesh& mesh)

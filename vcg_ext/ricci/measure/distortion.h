@@ -83,13 +83,11 @@ double stretchEnergy(const FlatMesh& mesh);
 /// \param seamLength on the surface
 MapCost costOf(const FlatMesh& mesh, double seamLength);
 
-/// The number of triangles that are not counter-clockwise in the plane, and how many more these are with coordinates
-/// rounded to float. Exact.
-struct FlippedCount
-{
-	int faces = 0, byRounding = 0;
-};
-FlippedCount countFlipped(const FlatMesh& mesh);
+/// The number of triangles that are not counter-clockwise in the plane. Exact.
+int countFlipped(const FlatMesh& mesh);
+
+/// How many more these are with coordinates rounded to float.
+int countFlippedByRounding(const FlatMesh& mesh);
 
 } // namespace ricci
 

@@ -348,7 +348,7 @@ template<class Length, class Rounding>
 int countUnequal(const FlatMesh& mesh, const Length& length, const Rounding& rounding)
 {
 	int count = 0;
-	for (const Corner side : seams(mesh).edges) {
+	for (const Corner side : seams(mesh).sides) {
 		const Corner other = mesh.across[side];
 		const double own = length(side), across = length(other);
 		const double allowed =

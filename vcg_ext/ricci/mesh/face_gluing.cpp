@@ -200,90 +200,71 @@ Adjacency<int, Link> orientationGraph(
 	});
 }
 
-/// Glued edges, by one of their sides.
-struct EdgeSet
+/// A vertex on the way from a root.
+struct Place
 {
-	std::vector<Corner> sides;
-	double length = 0.0;
+	double length = kInfinity; // from the root
+	Link from;
+	char parity = 0; // of the way from the root
+	bool done = false;
 };
 
-/// Shortest one-sided loops through given vertices.
-class LoopSearch
+/// Replaces \p best by the shortest one-sided loop through \p root if that is shorter.
+/// \param places [vertex] scratch, Place() between calls
+void shortenLoop(const Adjacency<int, Link>& graph, int root, Array<Place>& places, EdgeSet& best)
 {
-public:
-	explicit LoopSearch(Adjacency<int, Link> graph) :
-			m_graph(std::move(graph)), m_places(m_graph.keyCount())
-	{
-	}
-
-	/// Replaces \p best by the shortest one-sided loop through \p root if that is shorter.
-	void improve(int root, EdgeSet& best)
-	{
-		DistanceQueue<int> queue;
-		std::vector<int> touched{root};
-		m_places[root] = {0.0, {}, 0, false};
-		queue.push(0.0, root);
-		bool found = false;
-		std::pair<int, Link> closing;
-		while (!queue.empty()) {
-			const auto [length, v] = queue.pop();
-			Place& place = m_places[v];
-			if (place.done)
-				continue;
-			if (2.0 * length >= best.length)
-				break;
-			place.done = true;
-			for (const Link& link : m_graph[v]) {
-				Place& next = m_places[link.vertex];
-				if (next.done) {
-					const double loop = length + link.length + next.length;
-					if ((place.parity ^ next.parity ^ link.parity) && loop < best.length) {
-						best.length = loop;
-						closing = {v, link};
-						found = true;
-					}
-				}
-				else if (length + link.length < next.length) {
-					if (next.length == kInfinity)
-						touched.push_back(link.vertex);
-					next.length = length + link.length;
-					next.from = {v, link.side, link.parity, link.length};
-					next.parity = static_cast<char>(place.parity ^ link.parity);
-					queue.push(next.length, link.vertex);
+	DistanceQueue<int> queue;
+	std::vector<int> touched{root};
+	places[root] = {0.0, {}, 0, false};
+	queue.push(0.0, root);
+	bool found = false;
+	std::pair<int, Link> closing;
+	while (!queue.empty()) {
+		const auto [length, v] = queue.pop();
+		Place& place = places[v];
+		if (place.done)
+			continue;
+		if (2.0 * length >= best.length)
+			break;
+		place.done = true;
+		for (const Link& link : graph[v]) {
+			Place& next = places[link.vertex];
+			if (next.done) {
+				const double loop = length + link.length + next.length;
+				if ((place.parity ^ next.parity ^ link.parity) && loop < best.length) {
+					best.length = loop;
+					closing = {v, link};
+					found = true;
 				}
 			}
+			else if (length + link.length < next.length) {
+				if (next.length == kInfinity)
+					touched.push_back(link.vertex);
+				next.length = length + link.length;
+				next.from = {v, link.side, link.parity, link.length};
+				next.parity = static_cast<char>(place.parity ^ link.parity);
+				queue.push(next.length, link.vertex);
+			}
 		}
-		if (found) {
-			best.sides = {closing.second.side};
-			for (int v : {closing.first, closing.second.vertex})
-				for (; v != root; v = m_places[v].from.vertex)
-					best.sides.push_back(m_places[v].from.side);
-			// What both ways to the root share is not a part of the loop.
-			std::sort(best.sides.begin(), best.sides.end());
-			std::vector<Corner> once;
-			for (const Corner s : best.sides)
-				if (!once.empty() && once.back() == s)
-					once.pop_back();
-				else
-					once.push_back(s);
-			best.sides = std::move(once);
-		}
-		for (const int v : touched)
-			m_places[v] = Place();
 	}
-
-private:
-	struct Place
-	{
-		double length = kInfinity; // from the root
-		Link from;
-		char parity = 0; // of the way from the root
-		bool done = false;
-	};
-
-	Adjacency<int, Link> m_graph;
-	Array<Place> m_places; // [vertex]
-};
+	if (found) {
+		best.sides = {closing.second.side};
+		for (int v : {closing.first, closing.second.vertex})
+			for (; v != root; v = places[v].from.vertex)
+				best.sides.push_back(places[v].from.side);
+		// What both ways to the root share is not a part of the loop.
+		std::sort(best.sides.begin(), best.sides.end());
+		std::vector<Corner> once;
+		for (const Corner s : best.sides)
+			if (!once.empty() && once.back() == s)
+				once.pop_back();
+			else
+				once.push_back(s);
+		best.sides = std::move(once);
+	}
+	for (const int v : touched)
+		places[v] = Place();
+}
 
 } // namespace
 
@@ -434,7 +415,8 @@ void cutOneSided(
 		if (const Corner t = glued[s];
 			t > s && partition.isOneSided[componentOf(s)] && triangles[s] == triangles[t])
 			add(s, incoherent[componentOf(s)]);
-	LoopSearch search(orientationGraph(positions.size(), triangles, glued, length));
+	const Adjacency<int, Link> graph = orientationGraph(positions.size(), triangles, glued, length);
+	Array<Place> places(graph.keyCount());
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
 	const std::vector<Corner>& sides = partition.contradicted.values();
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
@@ -448,7 +430,7 @@ void cutOneSided(
 				roots.push_back(v);
 		const std::size_t count = std::min(kRoots, roots.size());
 		for (std::size_t i = 0; i < count; ++i)
-			search.improve(roots[i * roots.size() / count], loop);
+			shortenLoop(graph, roots[i * roots.size() / count], places, loop);
 		const EdgeSet shortest = edgeSet(loop.sides);
 		const EdgeSet& given = incoherent[component];
 		for (const Corner s :

@@ -103,7 +103,7 @@ struct SplitVertices
 ///
 /// Two sides of faces that no other face shares by index are one edge if their ends are bit-equal. Where just two
 /// lie there they are joined; where more do, each is joined to the one that is met first when one turns round the
-/// edge through the inner side of its face, if that one runs the other way. Faces that lie on one another (kSameAngle)
+/// edge through the inner side of its face, if that one runs the other way. Faces that lie on one another (kSmall)
 /// are never joined, and vertices become one only through joined edges.
 ///
 /// So solids that touch stay apart, in a soup of faces too, and so do the two sides of a leaf.

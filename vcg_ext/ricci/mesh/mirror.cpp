@@ -88,55 +88,42 @@ std::vector<Plane> planesToTry(const VertexArray<Point3>& positions, double nois
 	return planes;
 }
 
-/// Finds the vertex nearest to a place, in a tree of what is within the noise of the vertices, drawn in a plane that is
-/// parallel to nothing in particular.
-class Nearest
+/// In a plane that is parallel to nothing in particular.
+Point2 drawn(const Point3& p)
 {
-public:
-	/// \param noise how far it is away at most
-	Nearest(const VertexArray<Point3>& positions, double noise) :
-			m_positions(positions), m_noise(noise), m_tree(boxes(positions, noise))
-	{
-	}
+	return {dot({0.5773, 0.2113, 0.7887}, p), dot({-0.6533, 0.7071, 0.2706}, p)};
+}
 
-	/// None if there is none.
-	Vertex operator()(const Point3& place) const
-	{
-		Vertex nearest;
-		double least = m_noise;
-		m_tree.boxesAround(
-			drawn(place),
-			[&](int i) {
-				const double d = distance(m_positions[Vertex(i)], place);
-				if (d < least || (d == least && nearest.isValid() && Vertex(i) < nearest)) {
-					least = d;
-					nearest = Vertex(i);
-				}
-			},
-			[](int) { return false; });
-		return nearest;
+/// Of what is within the noise of the vertices, drawn().
+BoxTree treeOf(const VertexArray<Point3>& positions, double noise)
+{
+	std::vector<Box2> boxes;
+	for (const Point3& p : positions) {
+		const Point2 middle = drawn(p), reach{noise, noise};
+		boxes.push_back({middle - reach, middle + reach});
 	}
+	return BoxTree(boxes);
+}
 
-private:
-	static Point2 drawn(const Point3& p)
-	{
-		return {dot({0.5773, 0.2113, 0.7887}, p), dot({-0.6533, 0.7071, 0.2706}, p)};
-	}
-
-	static std::vector<Box2> boxes(const VertexArray<Point3>& positions, double noise)
-	{
-		std::vector<Box2> result;
-		for (const Point3& p : positions) {
-			const Point2 middle = drawn(p), reach{noise, noise};
-			result.push_back({middle - reach, middle + reach});
-		}
-		return result;
-	}
-
-	const VertexArray<Point3>& m_positions;
-	double m_noise;
-	BoxTree m_tree;
-};
+/// The vertex nearest to a place; none if it is farther away than the noise.
+/// \param tree treeOf() the vertices
+Vertex nearestTo(
+	const Point3& place, const VertexArray<Point3>& positions, double noise, const BoxTree& tree)
+{
+	Vertex nearest;
+	double least = noise;
+	tree.boxesAround(
+		drawn(place),
+		[&](int i) {
+			const double d = distance(positions[Vertex(i)], place);
+			if (d < least || (d == least && nearest.isValid() && Vertex(i) < nearest)) {
+				least = d;
+				nearest = Vertex(i);
+			}
+		},
+		[](int) { return false; });
+	return nearest;
+}
 
 /// A plane is tried on so many vertices first: it is none if a quarter of them have no image.
 constexpr int kFirstTried = 64;
@@ -148,11 +135,13 @@ VertexArray<Vertex> imagesAcross(
 	const Plane& plane,
 	const EmbeddedSurface& surface,
 	const VertexArray<char>& onHole,
-	const Nearest& nearestTo)
+	double noise,
+	const BoxTree& tree)
 {
 	const VertexArray<char>& boundary = surface.topology.boundary;
 	const auto nearest = [&](Vertex v) {
-		const Vertex w = nearestTo(plane.mirrored(surface.positions[v]));
+		const Vertex w =
+			nearestTo(plane.mirrored(surface.positions[v]), surface.positions, noise, tree);
 		const bool isLike =
 			w.isValid() && boundary[w] == boundary[v] && (onHole.empty() || onHole[w] == onHole[v]);
 		return isLike ? w : Vertex();
@@ -260,13 +249,13 @@ findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 	const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
 	std::nth_element(lengths.begin(), median, lengths.end());
 	const double noise = kMirrorNoise * *median;
-	const Nearest nearest(surface.positions, noise);
+	const BoxTree tree = treeOf(surface.positions, noise);
 	std::shared_ptr<MirrorSymmetry> best;
 	double least = kInfinity;
 	int found = 0;
 	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
-		mirror->image = imagesAcross(plane, surface, onHole, nearest);
+		mirror->image = imagesAcross(plane, surface, onHole, noise, tree);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
 		double inPlane = 0.0;

@@ -108,33 +108,31 @@ EdgeArray<NormalCoordinates::Curve> NormalCoordinates::trace() const
 {
 	const Triangulation& t = m_triangulation;
 	EdgeArray<Curve> curves(t.edgeCount());
-	struct Start
-	{
-		Halfedge corner;
-		int position = -1; // across the opposite side; -1: the curve is the edge of corner
-	};
-	HalfedgeArray<Start> starts(t.halfedgeCount()); // by original halfedge
+	// By original halfedge: Curve::first, and the position across the opposite side; -1: the curve is an edge.
+	HalfedgeArray<Halfedge> first(t.halfedgeCount());
+	HalfedgeArray<int> positions(t.halfedgeCount(), -1);
 	for (const Halfedge h : t.halfedges()) {
 		const Vertex v = t.origin(h);
 		const bool isEdge = isCurve(h.edge());
 		if (isEdge)
-			starts[original(v, m_roundabout[h])] = {h, -1};
+			first[original(v, m_roundabout[h])] = h;
 		if (t.isExterior(h))
 			continue;
 		const int count = cornerCurves(h).emanateFromI;
-		for (int m = 0; m < count; ++m)
-			starts[original(v, m_roundabout[h] + (isEdge ? 1 : 0) + m)] = {
-				h, crossings(h.edge()) + m};
+		for (int m = 0; m < count; ++m) {
+			const Halfedge start = original(v, m_roundabout[h] + (isEdge ? 1 : 0) + m);
+			first[start] = h;
+			positions[start] = crossings(h.edge()) + m;
+		}
 	}
 	for (const Edge e : t.edges()) {
 		Curve& curve = curves[e];
-		const Start start = starts[e.halfedge()];
-		curve.first = start.corner;
-		curve.last = starts[e.halfedge().twin()].corner;
-		if (start.position < 0)
+		curve.first = first[e.halfedge()];
+		curve.last = first[e.halfedge().twin()];
+		int position = positions[e.halfedge()];
+		if (position < 0)
 			continue;
-		Halfedge x = t.next(start.corner);
-		int position = start.position;
+		Halfedge x = t.next(curve.first);
 		while (true) {
 			curve.crossings.push_back({x, position});
 			const Halfedge y = x.twin();
@@ -165,11 +163,11 @@ Point2 walk(const Point2& from, double length, double direction)
 
 } // namespace
 
-void unfold(
+Point2 unfold(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const NormalCoordinates::Curve& curve,
-	Strip& strip)
+	std::vector<std::array<Point2, 2>>& crossed)
 {
 	const auto length = [&](Halfedge h) { return lengths[h.edge()]; };
 	// Angle at the origin of h, by half-angles.
@@ -180,12 +178,12 @@ void unfold(
 						 std::sqrt(std::max(0.0, (s - a) * (s - b))),
 						 std::sqrt(std::max(0.0, s * (s - c))));
 	};
-	strip.sides.clear();
+	crossed.clear();
 	const Halfedge h = curve.first;
 	double along = kPi - angle(t.next(h)); // direction of the crossed halfedge
 	Point2 from{length(h), 0.0}, to = walk({0.0, 0.0}, length(t.previous(h)), angle(h));
-	for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
-		strip.sides.push_back({from, to});
+	for (std::size_t i = 0;; ++i) {
+		crossed.push_back({from, to});
 		const Halfedge y = curve.crossings[i].halfedge.twin(); // from to
 		const double direction = along + kPi;
 		const double toApex = direction + angle(y);
@@ -193,8 +191,8 @@ void unfold(
 		const double left = length(t.previous(y)), right = length(t.next(y));
 		const Point2 apex = right < left ? walk(from, right, fromBase) : walk(to, left, toApex);
 		if (i + 1 == curve.crossings.size())
-			strip.end = apex;
-		else if (curve.crossings[i + 1].halfedge == t.next(y)) {
+			return apex;
+		if (curve.crossings[i + 1].halfedge == t.next(y)) {
 			to = apex;
 			along = fromBase;
 		}

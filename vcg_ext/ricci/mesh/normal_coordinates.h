@@ -129,24 +129,17 @@ private:
 	Array<Halfedge> m_ranked;        // original halfedges, counter-clockwise round each vertex
 };
 
-/// The strip of plane triangles that a curve runs through, unfolded from the beginning of the curve
-/// at the origin of the plane.
-struct Strip
-{
-	/// Of every crossing, in order: the ends of the crossed halfedge.
-	std::vector<std::array<Point2, 2>> sides;
-	Point2 end{0.0, 0.0}; ///< of the curve
-};
-
-/// Unfolds \p curve in the flat metric of these \p lengths on \p t, on which the curve was traced.
-/// Directions are carried as angles, which rounding changes less than coordinates where triangles
-/// are thin. \p strip is overwritten.
+/// Unfolds the strip of triangles that \p curve runs through, in the flat metric of these \p lengths on \p t, on which
+/// the curve was traced, from its beginning at the origin of the plane. Directions are carried as angles, which rounding
+/// changes less than coordinates where triangles are thin.
+/// \param crossed the ends of the crossed halfedge, of every crossing in order
+/// \return the end of the curve
 /// \pre the curve has at least one crossing
-void unfold(
+Point2 unfold(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const NormalCoordinates::Curve& curve,
-	Strip& strip);
+	std::vector<std::array<Point2, 2>>& crossed);
 
 } // namespace ricci
 

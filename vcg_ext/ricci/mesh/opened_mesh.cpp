@@ -108,7 +108,7 @@ public:
 			const Corner own = inInput(side);
 			return !m_input.seam.empty() && m_input.seam[positionOf(own.face())][own.index()] != 0;
 		};
-		const MapJumps jumps(m_input.map);
+		const auto jumps = jumpsOf(m_input.map);
 		const auto mapJumps = [&](Corner a, Corner b) {
 			const bool sameWay = m_triangles[a] == m_triangles[b];
 			return !m_input.map.empty() &&

@@ -5,6 +5,7 @@
 #include "../base/graphs.h"
 #include "surface_mesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -74,21 +75,11 @@ Creases creases(
 	const Sides& sides,
 	double angle);
 
-/// Where a map that a mesh has jumps: it puts two faces at a vertex into different pictures, or there more than
-/// kSameCoordinate of the widest extent of all coordinates apart. Two NaN are equal.
-class MapJumps
-{
-public:
-	/// \param map must outlive this
-	explicit MapJumps(const std::vector<MappedFace>& map);
-
-	/// Between corners of two faces at one vertex.
-	bool operator()(Corner a, Corner b) const;
-
-private:
-	const std::vector<MappedFace>& m_map;
-	double m_bound;
-};
+/// Tells of corners of two faces at one vertex whether a map that the mesh has jumps between them: it puts the faces
+/// into different pictures, or the corners more than kSameCoordinate of the widest extent of all coordinates apart. Two
+/// NaN are equal.
+/// \param map must outlive the result
+std::function<bool(Corner, Corner)> jumpsOf(const std::vector<MappedFace>& map);
 
 } // namespace ricci
 

@@ -47,12 +47,12 @@ void sortRound(const RunsUp& runsUp, std::vector<Page>& pages, std::vector<int>&
 					 : pages.back().angle + 2.0 * kPi - pages[0].angle;
 	};
 	std::size_t start = 0; // behind a gap
-	while (start + 1 < pages.size() && !(gapBefore(start) > kSameAngle))
+	while (start + 1 < pages.size() && !(gapBefore(start) > kSmall))
 		++start;
 	layer.assign(pages.size(), 0);
 	for (std::size_t i = start + 1; i < start + pages.size(); ++i) {
 		const std::size_t at = i % pages.size();
-		layer[i - start] = layer[i - start - 1] + (gapBefore(at) > kSameAngle);
+		layer[i - start] = layer[i - start - 1] + (gapBefore(at) > kSmall);
 	}
 	std::rotate(pages.begin(), pages.begin() + static_cast<std::ptrdiff_t>(start), pages.end());
 	for (std::size_t first = 0, last; first < pages.size(); first = last) {

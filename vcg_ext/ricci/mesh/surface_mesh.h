@@ -20,6 +20,13 @@ using CornerOrder = std::array<std::size_t, 3>;
 /// [face][k] 1 where the side from corner k is marked. May be empty, else one entry for each triangle.
 using SideMarks = std::vector<std::array<char, 3>>;
 
+/// Edges, by one side of each, and their length on the surface, each once.
+struct EdgeSet
+{
+	std::vector<Corner> sides;
+	double length = 0.0;
+};
+
 /// Where a map that a mesh has puts a face.
 struct MappedFace
 {
@@ -36,7 +43,7 @@ struct SurfaceMesh
 	SideMarks diagonal = {};         ///< sides inside polygons that were cut into triangles
 	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
 	SideMarks seam = {}; ///< where the caller wants seams; one face of an edge is enough
-	/// [face] A map that the mesh has; may be empty. Edges at which it jumps (MapJumps) are seams. Where its charts
+	/// [face] A map that the mesh has; may be empty. Edges at which it jumps (jumpsOf()) are seams. Where its charts
 	/// neither flip nor overlap, Automatic takes no map with further seams or of more objective than theirs.
 	std::vector<MappedFace> map = {};
 

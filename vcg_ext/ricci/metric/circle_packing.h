@@ -11,14 +11,6 @@
 
 namespace ricci {
 
-/// Discrete conformal class (Definition 3.5): a triangulation and an inversive distance on each edge. With
-/// a circle at each vertex it is a metric.
-struct CirclePacking
-{
-	Triangulation triangulation;
-	EdgeArray<double> delta; ///< I - 1; at least 0 where circles are tangent or disjoint
-};
-
 /// Initial radii of paper 4.1: the minimum of (l_ij + l_ki - l_jk) / 2 over the triangles at i,
 /// infinite where there is none. They give gamma_i + gamma_j <= l_ij, hence I >= 1 on every edge.
 /// Positive if every triangle satisfies the strict triangle inequality.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace ricci {
 
@@ -28,31 +29,38 @@ DoubleDouble series(DoubleDouble x)
 	return sum;
 }
 
-struct Tables
+/// 2^(n / kSteps), from a table.
+DoubleDouble powerOfTwo(int n)
 {
-	std::array<DoubleDouble, kSteps> power; ///< 2^(i / kSteps)
-	std::array<SineAndCosine, kSteps> turn; ///< of i / kSteps
-
-	Tables()
-	{
+	static const auto table = [] {
+		std::array<DoubleDouble, kSteps> power;
+		power[0] = 1;
 		const DoubleDouble factor = 1 + series<false>(kExtendedLog2 / kSteps);
+		for (std::size_t i = 1; i < kSteps; ++i)
+			power[i] = power[i - 1] * factor;
+		return power;
+	}();
+	const int index = ((n % kSteps) + kSteps) % kSteps;
+	return scaled(table[static_cast<std::size_t>(index)], (n - index) / kSteps);
+}
+
+/// exp(i n / kSteps) for 0 <= n < kSteps, from a table.
+const ExtendedComplex& turnBySteps(int n)
+{
+	static const auto table = [] {
+		std::array<ExtendedComplex, kSteps> turn;
+		turn[0] = 1.0;
 		const DoubleDouble sine = series<true>(1.0 / kSteps);
 		const DoubleDouble cosine = sqrt(1 - sine * sine);
-		power[0] = 1;
-		turn[0] = {0, 1};
 		for (std::size_t i = 1; i < kSteps; ++i) {
-			power[i] = power[i - 1] * factor;
-			const SineAndCosine& last = turn[i - 1];
+			const ExtendedComplex& last = turn[i - 1];
 			turn[i] = {
-				last.sine * cosine + last.cosine * sine, last.cosine * cosine - last.sine * sine};
+				last.real() * cosine - last.imag() * sine,
+				last.imag() * cosine + last.real() * sine};
 		}
-	}
-};
-
-const Tables& tables()
-{
-	static const Tables result;
-	return result;
+		return turn;
+	}();
+	return table[static_cast<std::size_t>(n)];
 }
 
 /// exp(x) - 1 for |x| below 1 / 64: the first terms exactly, the rest, less than 2^-14 of them, in
@@ -65,27 +73,21 @@ DoubleDouble smallExpm1(DoubleDouble x)
 	return x + (x * x * 0.5 + rest);
 }
 
-/// exp(x) as a power of 2 times 1 plus a rest, for |x| below 700.
-struct Reduced
+/// exp(x) - \p less, for |x| below 700.
+DoubleDouble expLess(DoubleDouble x, double less)
 {
-	DoubleDouble power, rest;
+	const double step = std::round(x.high * (kSteps / kExtendedLog2.high));
+	const DoubleDouble power = powerOfTwo(static_cast<int>(step));
+	return (power - less) + power * smallExpm1(x - kExtendedLog2 * (step / kSteps));
+}
 
-	explicit Reduced(DoubleDouble x)
-	{
-		const double step = std::round(x.high * (kSteps / kExtendedLog2.high));
-		const int n = static_cast<int>(step), index = ((n % kSteps) + kSteps) % kSteps;
-		power = scaled(tables().power[static_cast<std::size_t>(index)], (n - index) / kSteps);
-		rest = smallExpm1(x - kExtendedLog2 * (step / kSteps));
-	}
-};
-
-/// Sine, and cosine less 1, for |x| below 1 / 64.
-SineAndCosine smallTurn(DoubleDouble x)
+/// exp(i x) - 1 for |x| below 1 / 64.
+ExtendedComplex smallTurnLess1(DoubleDouble x)
 {
 	const double y = x.high * x.high;
 	const double sine = -x.high * y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72)));
 	const double cosine = y * y / 24 * (1 - y / 30 * (1 - y / 56 * (1 - y / 90)));
-	return {x + sine, x * x * -0.5 + cosine};
+	return {x * x * -0.5 + cosine, x + sine};
 }
 
 } // namespace
@@ -94,16 +96,14 @@ DoubleDouble exp(DoubleDouble x)
 {
 	if (!(std::abs(x.high) < 700.0)) // the range ends, or x is NaN
 		return std::exp(x.high);
-	const Reduced r(x);
-	return r.power + r.power * r.rest;
+	return expLess(x, 0.0);
 }
 
 DoubleDouble expm1(DoubleDouble x)
 {
 	if (!(std::abs(x.high) < 700.0))
 		return std::expm1(x.high);
-	const Reduced r(x);
-	return (r.power - 1) + r.power * r.rest;
+	return expLess(x, 1.0);
 }
 
 DoubleDouble sinh(DoubleDouble x)
@@ -130,14 +130,14 @@ DoubleDouble asinh(DoubleDouble x)
 DoubleDouble atan2(DoubleDouble y, DoubleDouble x)
 {
 	const double angle = std::atan2(y.high, x.high);
-	const SineAndCosine turn = sineAndCosine(angle);
-	const double ahead = (x * turn.cosine + y * turn.sine).high;
+	const ExtendedComplex turn = turnBy(angle);
+	const double ahead = (x * turn.real() + y * turn.imag()).high;
 	if (!(ahead > 0.0))
 		return angle;
-	return DoubleDouble(angle) + (y * turn.cosine - x * turn.sine).high / ahead;
+	return DoubleDouble(angle) + (y * turn.real() - x * turn.imag()).high / ahead;
 }
 
-SineAndCosine sineAndCosine(DoubleDouble x)
+ExtendedComplex turnBy(DoubleDouble x)
 {
 	if (!(std::abs(x.high) < 1e3)) {
 		const double none = std::numeric_limits<double>::quiet_NaN();
@@ -146,20 +146,20 @@ SineAndCosine sineAndCosine(DoubleDouble x)
 	const double quarters = std::round(x.high / (0.5 * kExtendedPi.high));
 	const DoubleDouble y = x - kExtendedPi * (0.5 * quarters);
 	const double step = std::round(y.high * kSteps);
-	const SineAndCosine small = smallTurn(y - step / kSteps);
-	const SineAndCosine& at = tables().turn[static_cast<std::size_t>(std::abs(step))];
-	const DoubleDouble atSine = step < 0.0 ? -at.sine : at.sine;
-	const DoubleDouble sine = atSine + (atSine * small.cosine + at.cosine * small.sine);
-	const DoubleDouble cosine = at.cosine + (at.cosine * small.cosine - atSine * small.sine);
+	const ExtendedComplex small = smallTurnLess1(y - step / kSteps);
+	const ExtendedComplex& at = turnBySteps(static_cast<int>(std::abs(step)));
+	const DoubleDouble atSine = step < 0.0 ? -at.imag() : at.imag();
+	const DoubleDouble sine = atSine + (atSine * small.real() + at.real() * small.imag());
+	const DoubleDouble cosine = at.real() + (at.real() * small.real() - atSine * small.imag());
 	switch (((static_cast<int>(quarters) % 4) + 4) % 4) {
 	case 0:
-		return {sine, cosine};
+		return {cosine, sine};
 	case 1:
-		return {cosine, -sine};
+		return {-sine, cosine};
 	case 2:
-		return {-sine, -cosine};
+		return {-cosine, -sine};
 	default:
-		return {-cosine, sine};
+		return {sine, -cosine};
 	}
 }
 

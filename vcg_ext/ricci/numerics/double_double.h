@@ -7,7 +7,6 @@
 #include <cfloat>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace ricci {
 
@@ -143,21 +142,13 @@ inline DoubleDouble sqrt(DoubleDouble x)
 		root, (x - DoubleDouble::product(root, root)).high / (2.0 * root));
 }
 
-/// The functions of <cmath>, with a relative error of 2^-67; in sine and cosine, which are for |x|
-/// below 1e3, an absolute one.
+/// The functions of <cmath>, with a relative error of 2^-67.
 DoubleDouble exp(DoubleDouble x);
 DoubleDouble expm1(DoubleDouble x);
 DoubleDouble sinh(DoubleDouble x);
 DoubleDouble cosh(DoubleDouble x);
 DoubleDouble asinh(DoubleDouble x);
 DoubleDouble atan2(DoubleDouble y, DoubleDouble x);
-
-struct SineAndCosine
-{
-	DoubleDouble sine, cosine;
-};
-
-SineAndCosine sineAndCosine(DoubleDouble x);
 
 /// A complex number in extended precision, with the functions of std::complex, which is not specified
 /// for such types.
@@ -241,22 +232,16 @@ private:
 	DoubleDouble m_real, m_imag;
 };
 
+/// exp(i \p angle), for angles below 1e3, with an absolute error of 2^-67 of its two parts.
+ExtendedComplex turnBy(DoubleDouble angle);
+
 /// The complex number \p r exp(i \p angle), as std::polar.
 inline ExtendedComplex polar(DoubleDouble r, DoubleDouble angle)
 {
-	const SineAndCosine turn = sineAndCosine(angle);
-	return {r * turn.cosine, r * turn.sine};
+	const ExtendedComplex turn = turnBy(angle);
+	return {r * turn.real(), r * turn.imag()};
 }
 
 } // namespace ricci
-
-/// Of what is computed with the functions above.
-template<>
-class std::numeric_limits<ricci::DoubleDouble> : public std::numeric_limits<double>
-{
-public:
-	static constexpr int digits = 67, digits10 = 19, max_digits10 = 22;
-	static constexpr ricci::DoubleDouble epsilon() { return 0x1p-66; }
-};
 
 #endif

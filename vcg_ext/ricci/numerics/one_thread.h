@@ -30,12 +30,11 @@ public:
 			m_levels = omp_get_max_active_levels();
 			omp_set_max_active_levels(0);
 		}
-		Blas& blas = commonBlas();
-		const std::lock_guard<std::mutex> lock(blas.mutex);
-		if (blas.users++ > 0 || !openblas_set_num_threads || !openblas_get_num_threads)
+		const std::lock_guard<std::mutex> lock(s_mutex);
+		if (s_users++ > 0 || !openblas_set_num_threads || !openblas_get_num_threads)
 			return;
-		blas.threads = openblas_get_num_threads();
-		if (blas.threads > 1)
+		s_blasThreads = openblas_get_num_threads();
+		if (s_blasThreads > 1)
 			openblas_set_num_threads(1);
 #endif
 	}
@@ -44,10 +43,9 @@ public:
 #ifdef RICCI_THREAD_CONTROL
 		if (m_levels >= 0)
 			omp_set_max_active_levels(m_levels);
-		Blas& blas = commonBlas();
-		const std::lock_guard<std::mutex> lock(blas.mutex);
-		if (--blas.users == 0 && blas.threads > 1)
-			openblas_set_num_threads(blas.threads);
+		const std::lock_guard<std::mutex> lock(s_mutex);
+		if (--s_users == 0 && s_blasThreads > 1)
+			openblas_set_num_threads(s_blasThreads);
 #endif
 	}
 	OneThread(const OneThread&) = delete;
@@ -55,18 +53,10 @@ public:
 
 #ifdef RICCI_THREAD_CONTROL
 private:
-	/// OpenBLAS has one number of threads for all that call it: the first user changes it, the last one
-	/// puts it back.
-	struct Blas
-	{
-		std::mutex mutex;
-		int users = 0, threads = 0;
-	};
-	static Blas& commonBlas()
-	{
-		static Blas blas;
-		return blas;
-	}
+	// OpenBLAS has one number of threads for all that call it: the first user changes it, the last one
+	// puts it back.
+	static inline std::mutex s_mutex;
+	static inline int s_users = 0, s_blasThreads = 0;
 
 	int m_levels = -1; // of OpenMP, which each thread has for itself
 #endif

@@ -5,6 +5,7 @@
 #include "../error.h"
 #include "cholmod_checkpoint.h"
 #include "one_thread.h"
+#include "preconditioner.h"
 
 #include <Eigen/IterativeLinearSolvers>
 
@@ -231,28 +232,6 @@ const char* SparseCholesky::name()
 
 #endif
 
-/// The last factor, in the form of a preconditioner of Eigen.
-class SparseCholesky::Preconditioner
-{
-public:
-	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
-
-	template<class Any>
-	Preconditioner& compute(const Any&)
-	{
-		return *this;
-	}
-	Eigen::VectorXd solve(Eigen::VectorXd residual) const
-	{
-		m_cholesky->solveOrdered(residual);
-		return residual;
-	}
-	Eigen::ComputationInfo info() { return Eigen::Success; }
-
-private:
-	SparseCholesky* m_cholesky = nullptr;
-};
-
 SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
 		m_implementation(std::make_unique<Implementation>(nestedDissectionFrom))
 {
@@ -399,7 +378,10 @@ int SparseCholesky::iterate(
 	takePattern(matrix);
 	takeValues(matrix);
 	Eigen::ConjugateGradient<Matrix, Eigen::Lower, Preconditioner> gradients;
-	gradients.preconditioner().attach(*this);
+	gradients.preconditioner().solve = [&](Eigen::VectorXd residual) {
+		solveOrdered(residual); // by the last factor
+		return residual;
+	};
 	gradients.setTolerance(accuracy);
 	gradients.setMaxIterations(maxIterations);
 	gradients.compute(m_ordered);

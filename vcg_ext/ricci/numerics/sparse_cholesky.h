@@ -111,7 +111,6 @@ public:
 
 private:
 	struct Implementation;
-	class Preconditioner;
 
 	/// A factorisation may become more expensive by this factor before another order is chosen.
 	static constexpr double kMaxGrowth = 1.5;

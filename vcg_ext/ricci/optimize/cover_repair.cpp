@@ -2,6 +2,7 @@
 #include "repair.h"
 
 #include "../base/task.h"
+#include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../numerics/disk_isometry.h"
 
@@ -15,9 +16,6 @@ namespace {
 
 /// Rings of the patches, one size after another.
 constexpr int kCoverRings[] = {1, 2, 3, 5};
-
-/// Ends of two sides are one point of the layout up to this share of the side.
-constexpr double kOnePoint = 1e-6;
 
 /// Takes the geodesic from \p a to \p b to that from \p c to \p d, of the same length.
 ExtendedIsometry taking(const Point2& a, const Point2& b, const Point2& c, const Point2& d)
@@ -83,8 +81,7 @@ private:
 			return;
 		const int maxSteps = static_cast<int>(std::clamp(
 			work / size, std::int64_t(0), std::int64_t(std::numeric_limits<int>::max())));
-		const Untangled found =
-			untangle({patch.flat, patch.groups, m_rules, patch.whole, maxSteps});
+		const Untangled found = untangle(patch.flat, patch.groups, m_rules, patch.whole, maxSteps);
 		work -= found.steps * size;
 		if (found.points.empty())
 			return;
@@ -193,7 +190,7 @@ private:
 			place,
 			[&](Corner side, Corner across) {
 				const Point2 a = place(side), b = place(side.next());
-				const double most = kOnePoint * distance(a, b);
+				const double most = kSmall * distance(a, b);
 				return distance(a, place(across.next())) <= most &&
 					   distance(b, place(across)) <= most;
 			},

@@ -77,8 +77,8 @@ FinishCounts finishInPlane(
 		return repair();
 	FinishCounts counts = repair();
 	const bool endedEarly = finish == Finish::LeastStretch
-								? leastStretch(flat).endedEarly
-								: leastDistortion(flat, cones, freeBoundary, mayCut).endedEarly;
+								? leastStretch(flat)
+								: leastDistortion(flat, cones, freeBoundary, mayCut);
 	if (endedEarly)
 		logLine("The finish stopped at its step limit: the map could still be slightly better.");
 	counts.endedEarly += endedEarly;

@@ -163,17 +163,20 @@ public:
 		m_value = m_energy.evaluate(m_position);
 	}
 
-	Descent descend()
+	/// Moves the points of \p flat if a step has lowered the energy.
+	/// \return whether the bound on its steps has ended it
+	bool descend(FlatMesh& flat)
 	{
-		Descent result{0, m_value, m_value};
 		if (!std::isfinite(m_value) || m_points.unknowns == 0)
-			return result;
+			return false;
 		DistortionLaplacian laplacian(m_energy);
 		m_energy.gradient(m_gradient);
-		double gain = kInfinity, lastGain = kInfinity;
-		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
+		int steps = 0; // that have lowered it
+		double lastGain = kInfinity;
+		bool isSeen = true;
+		while (steps < kMaxSteps && isSeen) {
 			checkpoint();
-			if (i % kSameStiffness == 0 && !laplacian.factorize())
+			if (steps % kSameStiffness == 0 && !laplacian.factorize())
 				break;
 			m_bfgs.direction(
 				m_gradient,
@@ -181,22 +184,17 @@ public:
 					laplacian.solve(rhs, x, kResidual);
 				},
 				m_direction);
-			gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
+			const double gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
 			if (!(gain > 0.0))
 				break;
-			++result.steps;
-			result.after = m_value;
-			if (gain + lastGain < worthOf(kSeen))
-				break;
-			result.endedEarly = i + 1 == kMaxSteps;
+			++steps;
+			isSeen = gain + lastGain >= worthOf(kSeen);
+			lastGain = gain;
 		}
-		return result;
-	}
-
-	void write(FlatMesh& flat) const
-	{
-		for (const int p : flat.place.indices())
-			flat.place[p] = asPoint(m_position[m_points.number[p]]);
+		if (steps > 0)
+			for (const int p : flat.place.indices())
+				flat.place[p] = asPoint(m_position[m_points.number[p]]);
+		return steps == kMaxSteps && isSeen;
 	}
 
 private:
@@ -248,15 +246,12 @@ private:
 
 } // namespace
 
-Descent leastDistortion(
+bool leastDistortion(
 	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped)
 {
 	DistortionDescent descent(
 		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }), countsFlipped);
-	const Descent result = descent.descend();
-	if (result.steps > 0)
-		descent.write(flat);
-	return result;
+	return descent.descend(flat);
 }
 
 } // namespace ricci

@@ -53,14 +53,6 @@ private:
 	Eigen::VectorXcd m_residual, m_direction, m_solved, m_product; // of solve()
 };
 
-/// What a descent to a map with less of something has done.
-struct Descent
-{
-	int steps = 0; ///< 0: nothing moved
-	double before = 0.0, after = 0.0;
-	bool endedEarly = false; ///< by the number of steps; it may become smaller still
-};
-
 /// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
@@ -83,9 +75,9 @@ struct Descent
 /// \param boundaryMoves whether the boundary is free; else its points stay
 /// \param countsFlipped whether flipped triangles stay flipped, and count as reflected ones; else they do not count
 /// It checks between steps whether the run has ended; then \p flat is what it was.
-/// \return its steps; MeanDistortion of the map
+/// \return whether the bound on its steps has ended it: the distortion may become smaller still
 /// \throw std::bad_alloc
-Descent leastDistortion(
+bool leastDistortion(
 	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped);
 
 /// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy
@@ -98,8 +90,8 @@ Descent leastDistortion(
 /// one gains less than a thousandth of what is above 4. A chart may cover itself afterwards.
 /// \param flat one component; it gets the area that it has on the surface. Its triangles that are not
 /// counter-clockwise do not count.
-/// \return its mean energies by area: 4 for an isometry
-Descent leastStretch(FlatMesh& flat);
+/// \return whether the bound on its steps has ended it
+bool leastStretch(FlatMesh& flat);
 
 } // namespace ricci
 

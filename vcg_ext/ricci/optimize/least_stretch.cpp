@@ -8,7 +8,10 @@
 #include "../numerics/iteration.h"
 #include "patch_energy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -20,104 +23,68 @@ constexpr double kMinStretchGain = 1e-3;
 
 constexpr double kMinStretchStep = 1e-8;
 
-/// A map on its way to less stretch.
-class StretchDescent
-{
-public:
-	StretchDescent(const FlatMesh& flat, const std::vector<RestShape>& shapes) :
-			m_start(flat), m_trial(flat),
-			m_energy(
-				flat, allPoints(flat), wholePatch(flat), shapes, PatchCost::SymmetricDirichlet),
-			m_x(Eigen::VectorXd::Zero(m_energy.size()))
-	{
-		for (const int f : flat.points.indices())
-			if (orientation(flat.at(f)) > 0)
-				m_counted.push_back(f);
-			else
-				m_energy.stress(f, 0.0);
-		m_value = m_energy.value(m_x, 0.0);
-	}
-
-	Descent descend()
-	{
-		Descent result{0, m_value, m_value};
-		double gain = m_value;
-		while (result.steps < kMaxStretchSteps &&
-			   gain > kMinStretchGain * (m_value - MapCost().energy)) {
-			gain = step();
-			if (!(gain > 0.0))
-				break;
-			++result.steps;
-			result.after = m_value;
-		}
-		result.endedEarly = result.steps == kMaxStretchSteps &&
-							gain > kMinStretchGain * (m_value - MapCost().energy);
-		return result;
-	}
-
-	Array<Point2> places() const { return placesAt(m_x); }
-
-private:
-	Array<Point2> placesAt(const Eigen::VectorXd& x) const
-	{
-		Array<Point2> places = m_start.place;
-		for (const int p : places.indices())
-			places[p] = {places[p][0] + x[2 * p], places[p][1] + x[2 * p + 1]};
-		return places;
-	}
-
-	/// \return by how much the energy falls; 0 where there is no way down
-	double step()
-	{
-		if (!m_energy.newtonStep(m_x, 0.0, m_gradient, m_step))
-			return 0.0;
-		double value = m_value;
-		Eigen::VectorXd x;
-		const double length = LineSearch{kMinStretchStep}.run(
-			1.0,
-			m_step.dot(m_gradient),
-			m_value,
-			[&](double trial) {
-				x = m_x + trial * m_step;
-				return value = m_energy.value(x, 0.0);
-			},
-			[&] {
-				m_trial.place = placesAt(x);
-				for (const int f : m_counted)
-					if (orientation(m_trial.at(f)) <= 0)
-						return false;
-				return true;
-			});
-		if (length == 0.0)
-			return 0.0;
-		m_x.swap(x);
-		const double gain = m_value - value;
-		m_value = value;
-		return gain;
-	}
-
-	const FlatMesh& m_start;
-	FlatMesh m_trial;
-	PatchEnergy m_energy;
-	std::vector<int> m_counted; // triangles
-	Eigen::VectorXd m_x, m_gradient, m_step;
-	double m_value;
-};
-
 } // namespace
 
-Descent leastStretch(FlatMesh& flat)
+bool leastStretch(FlatMesh& flat)
 {
 	checkpoint();
 	scaleToSurface(flat);
 	const double height = kMinHeight * flat.box().extent();
 	const Validity validity{height, kWantedHeights * height};
-	const std::vector<RestShape> shapes =
-		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, validity);
-	StretchDescent descent(flat, shapes);
-	const Descent result = descent.descend();
-	flat.place = descent.places();
-	return result;
+	const Patch whole = wholePatch(flat);
+	PatchEnergy energy(
+		flat,
+		allPoints(flat),
+		whole,
+		restShapes(flat, whole, RestShapes::OfSurfaceEvenly, validity),
+		PatchCost::SymmetricDirichlet);
+	std::vector<int> counted; // triangles
+	for (const int f : flat.points.indices())
+		if (orientation(flat.at(f)) > 0)
+			counted.push_back(f);
+		else
+			energy.stress(f, 0.0);
+	const Array<Point2> start = flat.place;
+	const auto placesAt = [&](const Eigen::VectorXd& x) {
+		Array<Point2> places = start;
+		for (const int p : places.indices())
+			places[p] = {places[p][0] + x[2 * p], places[p][1] + x[2 * p + 1]};
+		return places;
+	};
+	Eigen::VectorXd x = Eigen::VectorXd::Zero(energy.size()), trial, gradient, direction;
+	double value = energy.value(x, 0.0);
+	// By how much the energy falls in one step; 0 where there is no way down.
+	const auto gainOfStep = [&] {
+		if (!energy.newtonStep(x, 0.0, gradient, direction))
+			return 0.0;
+		double next = value;
+		const double length = LineSearch{kMinStretchStep}.run(
+			1.0,
+			direction.dot(gradient),
+			value,
+			[&](double step) {
+				trial = x + step * direction;
+				return next = energy.value(trial, 0.0);
+			},
+			[&] {
+				flat.place = placesAt(trial);
+				return std::all_of(counted.begin(), counted.end(), [&](int f) {
+					return orientation(flat.at(f)) > 0;
+				});
+			});
+		if (length == 0.0)
+			return 0.0;
+		x.swap(trial);
+		return std::exchange(value, next) - next;
+	};
+	const auto isWorthAStep = [&](double gain) {
+		return gain > std::max(0.0, kMinStretchGain * (value - MapCost().energy));
+	};
+	int steps = 0;
+	while (steps < kMaxStretchSteps && std::isfinite(value) && isWorthAStep(gainOfStep()))
+		++steps;
+	flat.place = placesAt(x);
+	return steps == kMaxStretchSteps;
 }
 
 } // namespace ricci

@@ -31,10 +31,6 @@ constexpr double kUncountedStiffness = 1e-4;
 /// See MeanDistortion::stiffness().
 constexpr double kMaxBend = 4.0;
 
-/// As in orientation(): a determinant above this share of its terms has the right sign, except for
-/// underflow.
-constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
-
 /// Products by parts: those of std::complex look for infinities behind every result.
 Complex product(Complex a, Complex b)
 {
@@ -266,8 +262,8 @@ void MeanDistortion::evaluate(int f, const Eigen::VectorXcd& position)
 	}
 	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
 	m_energy[f] = kInfinity;
-	// What is far from 0 has the right sign, see orientation().
-	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) +
+	// What is far from 0 for its terms, and for underflow, has the right sign, see orientation().
+	if (!(left - right > 4.0 * kUnitRoundoff * (std::abs(left) + std::abs(right)) +
 							 std::numeric_limits<double>::min()) &&
 		orientation(
 			asPoint(origin), asPoint(position[corners[1]]), asPoint(position[corners[2]])) != 1)

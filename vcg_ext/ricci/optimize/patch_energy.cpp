@@ -78,7 +78,7 @@ struct Derivatives
 	std::array<Complex, 3> byCorner;
 	Complex z, w;
 
-	Derivatives(const RestShape& shape, const Triangle2& p)
+	Derivatives(const TriangleShape& shape, const Triangle2& p)
 	{
 		const double b = shape.base, x = shape.apex.real(), y = shape.apex.imag();
 		const Complex first(0.5 / b, 0.5 * x / (b * y)), second(0.0, -0.5 / y);
@@ -110,13 +110,13 @@ PatchEnergy::PatchEnergy(
 	const FlatMesh& flat,
 	const PointGroups& groups,
 	const Patch& patch,
-	const std::vector<RestShape>& shapes,
+	const std::vector<TriangleShape>& shapes,
 	PatchCost cost) :
 		m_size(2 * patch.variables),
 		m_cost(cost), m_hessian(m_size, m_size)
 {
 	double sum = 0.0;
-	for (const RestShape& s : shapes)
+	for (const TriangleShape& s : shapes)
 		sum += s.base * s.apex.imag();
 	const double minWeight = kMinWeight / static_cast<double>(shapes.size());
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -297,7 +297,7 @@ void PatchEnergy::layOutMatrix()
 	});
 }
 
-double strain(const RestShape& shape, const Triangle2& plane)
+double strain(const TriangleShape& shape, const Triangle2& plane)
 {
 	const Derivatives d(shape, plane);
 	const double a = std::norm(d.z), b = std::norm(d.w);

@@ -30,7 +30,7 @@ public:
 		const FlatMesh& flat,
 		const PointGroups& groups,
 		const Patch& patch,
-		const std::vector<RestShape>& shapes,
+		const std::vector<TriangleShape>& shapes,
 		PatchCost cost = PatchCost::Untangling);
 
 	int size() const { return m_size; }
@@ -85,7 +85,7 @@ private:
 
 /// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large
 /// for one that is stretched out or flat; infinite where it is not counter-clockwise.
-double strain(const RestShape& shape, const Triangle2& plane);
+double strain(const TriangleShape& shape, const Triangle2& plane);
 
 } // namespace ricci
 

@@ -134,7 +134,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// From the lengths of the sides 0-1, 1-2 and 2-0.
-RestShape shapeOf(const std::array<double, 3>& sides)
+TriangleShape shapeOf(const std::array<double, 3>& sides)
 {
 	const double longest = std::max({sides[0], sides[1], sides[2]});
 	if (!(longest > 0.0))
@@ -147,18 +147,13 @@ RestShape shapeOf(const std::array<double, 3>& sides)
 	return {a, {x, std::max(std::sqrt(std::max(c * c - x * x, 0.0)), height)}};
 }
 
-double areaOf(const RestShape& s)
-{
-	return 0.5 * s.base * s.apex.imag();
-}
-
-RestShape scaled(const RestShape& s, double factor)
+TriangleShape scaled(const TriangleShape& s, double factor)
 {
 	return {factor * s.base, factor * s.apex};
 }
 
 /// A shape with a right height over its longest side, both at least \p height.
-RestShape heightened(const RestShape& s, double height)
+TriangleShape heightened(const TriangleShape& s, double height)
 {
 	Complex corner[3] = {0.0, s.base, s.apex};
 	std::size_t first = 0; // of the longest side
@@ -167,7 +162,7 @@ RestShape heightened(const RestShape& s, double height)
 			std::abs(corner[(first + 1) % 3] - corner[first]))
 			first = k;
 	const Complex side = corner[(first + 1) % 3] - corner[first];
-	const double length = std::abs(side), old = 2.0 * areaOf(s) / length;
+	const double length = std::abs(side), old = 2.0 * s.area() / length;
 	if (old >= height)
 		return s;
 	const double along = std::max(length, 1.2 * height) / length, across = height / old;
@@ -179,7 +174,7 @@ RestShape heightened(const RestShape& s, double height)
 	return {std::abs(base), (corner[2] - corner[0]) / base * std::abs(base)};
 }
 
-RestShape shapeOf(const Triangle2& p)
+TriangleShape shapeOf(const Triangle2& p)
 {
 	const Complex base = asComplex(p[1]) - asComplex(p[0]);
 	return {std::abs(base), (asComplex(p[2]) - asComplex(p[0])) * std::conj(base) / std::abs(base)};
@@ -190,23 +185,18 @@ double longestSide(const Triangle2& p)
 	return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
 }
 
-double longestSide(const RestShape& s)
-{
-	return std::max({s.base, std::abs(s.apex), std::abs(s.apex - s.base)});
-}
-
 /// How much the map scales the surface round each triangle of a patch: the root of the quotient
 /// of areas over the triangles at its corners, or \p evenly over all. Where a triangle has no area on
 /// the surface, the squares of its longest sides stand for the areas.
-std::vector<double>
-scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& shapes, bool evenly)
+std::vector<double> scales(
+	const FlatMesh& flat, const Patch& patch, const std::vector<TriangleShape>& shapes, bool evenly)
 {
 	Array<double> plane(static_cast<int>(patch.points.size()), 0.0), surface = plane;
 	double planeSum = 0.0, surfaceSum = 0.0;
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = flat.at(patch.triangles[i]);
-		double a = 0.5 * std::abs(doubledArea(p)), b = areaOf(shapes[i]);
-		if (const double side = longestSide(shapes[i]); b <= kMinIntrinsicHeight * side * side) {
+		double a = 0.5 * std::abs(doubledArea(p)), b = shapes[i].area();
+		if (const double side = shapes[i].longestSide(); b <= kMinIntrinsicHeight * side * side) {
 			a = longestSide(p) * longestSide(p);
 			b = side * side;
 		}
@@ -229,10 +219,10 @@ scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& s
 
 } // namespace
 
-std::vector<RestShape>
+std::vector<TriangleShape>
 restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Validity& validity)
 {
-	std::vector<RestShape> shapes;
+	std::vector<TriangleShape> shapes;
 	for (const int f : patch.triangles)
 		shapes.push_back(shapeOf(flat.lengths[f]));
 	const std::vector<double> scale =
@@ -247,7 +237,8 @@ restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Vali
 	return shapes;
 }
 
-RestShape restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity)
+TriangleShape
+restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity)
 {
 	Patch alone;
 	alone.triangles = {triangle};

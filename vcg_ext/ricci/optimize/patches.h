@@ -104,14 +104,6 @@ private:
 	Array<int> m_number, m_count;      // [group] scratch, -1 and 0 between calls
 };
 
-/// The shape that a triangle of the plane should have: corners 0, base > 0 and apex, whose
-/// imaginary part is positive.
-struct RestShape
-{
-	double base = 1.0;
-	std::complex<double> apex;
-};
-
 /// Where the triangles of a patch have their shapes from.
 enum class RestShapes {
 	OfSurface,       ///< from their sides on the surface, scaled as the map scales them nearby
@@ -121,10 +113,11 @@ enum class RestShapes {
 
 /// The shapes of the triangles of \p patch. A triangle without a shape, or with a thin one, gets one that is
 /// less thin. All are as high as \p validity wants.
-std::vector<RestShape>
+std::vector<TriangleShape>
 restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Validity& validity);
 /// The shape of one triangle by itself.
-RestShape restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity);
+TriangleShape
+restShape(const FlatMesh& flat, int triangle, RestShapes from, const Validity& validity);
 
 } // namespace ricci
 

@@ -15,9 +15,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Copies whose turn is less certain do not move.
-constexpr double kMaxTurnError = 1e-6;
-
 /// What turns the side ab to the direction of cd.
 Complex turnOf(Complex a, Complex b, Complex c, Complex d)
 {
@@ -180,7 +177,8 @@ PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 					result.turn[copy.point] = turn;
 					error[copy.point] = error[p] + copy.error;
 					members.push_back(copy.point);
-					fixed = fixed || error[copy.point] > kMaxTurnError;
+					// A copy whose turn is less certain does not move.
+					fixed = fixed || error[copy.point] > kSmall;
 				}
 				else if (!(std::abs(turn / result.turn[copy.point] - 1.0) <=
 						   kSeamMatch + error[p] + copy.error + error[copy.point]))

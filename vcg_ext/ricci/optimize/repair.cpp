@@ -42,13 +42,15 @@ constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 class Untangler
 {
 public:
-	explicit Untangler(const PatchProblem& problem) :
-			m_problem(problem), m_patch(problem.patch),
-			m_energy(
-				problem.flat,
-				problem.groups,
-				m_patch,
-				restShapes(problem.flat, m_patch, problem.rules.shapes, problem.rules.validity)),
+	Untangler(
+		const FlatMesh& flat,
+		const PointGroups& groups,
+		const RepairRules& rules,
+		const Patch& patch,
+		int maxSteps) :
+			m_flat(flat),
+			m_groups(groups), m_validity(rules.validity), m_patch(patch), m_maxSteps(maxSteps),
+			m_energy(flat, groups, patch, restShapes(flat, patch, rules.shapes, rules.validity)),
 			m_x(Eigen::VectorXd::Zero(m_energy.size()))
 	{
 	}
@@ -104,7 +106,7 @@ public:
 			if (idle >= (many ? kMaxIdleRounds / 3 : kMaxIdleRounds))
 				break;
 			before = bad;
-			if (m_found.steps == m_problem.maxSteps)
+			if (m_found.steps == m_maxSteps)
 				break;
 		}
 		return m_found;
@@ -115,7 +117,7 @@ private:
 	/// \param validOnly the step must leave the patch valid
 	bool descend(double& value, bool validOnly)
 	{
-		if (m_found.steps == m_problem.maxSteps)
+		if (m_found.steps == m_maxSteps)
 			return false;
 		++m_found.steps;
 		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step))
@@ -159,14 +161,14 @@ private:
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
 			m_places.push_back(
 				variable < 0
-					? m_problem.flat.place[p]
-					: m_problem.rules.validity.stored(m_problem.groups.displaced(
-						  p, m_problem.flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
+					? m_flat.place[p]
+					: m_validity.stored(m_groups.displaced(
+						  p, m_flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_invalid.clear();
 		for (const int i : m_patch.corners.indices()) {
 			const Triangle& t = m_patch.corners[i];
-			if (!m_problem.rules.validity.isValid(
+			if (!m_validity.isValid(
 					{m_places[positionOf(t[0])],
 					 m_places[positionOf(t[1])],
 					 m_places[positionOf(t[2])]}))
@@ -180,8 +182,11 @@ private:
 	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
 	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
 
-	const PatchProblem& m_problem;
+	const FlatMesh& m_flat;
+	const PointGroups& m_groups;
+	const Validity& m_validity;
 	const Patch& m_patch;
+	const int m_maxSteps;
 	PatchEnergy m_energy;
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
 	double m_eps = 1.0;
@@ -192,14 +197,24 @@ private:
 
 } // namespace
 
-Untangled untangle(const PatchProblem& problem)
+Untangled untangle(
+	const FlatMesh& flat,
+	const PointGroups& groups,
+	const RepairRules& rules,
+	const Patch& patch,
+	int maxSteps)
 {
-	return Untangler(problem).run();
+	return Untangler(flat, groups, rules, patch, maxSteps).run();
 }
 
-Untangled ease(const PatchProblem& problem)
+Untangled ease(
+	const FlatMesh& flat,
+	const PointGroups& groups,
+	const RepairRules& rules,
+	const Patch& patch,
+	int maxSteps)
 {
-	return Untangler(problem).ease();
+	return Untangler(flat, groups, rules, patch, maxSteps).ease();
 }
 
 namespace {
@@ -296,7 +311,7 @@ std::vector<Untangled> solveAll(
 	const FlatMesh& flat,
 	const PointGroups& groups,
 	const RepairRules& rules,
-	Untangled (*solve)(const PatchProblem&),
+	decltype(untangle)& solve,
 	std::vector<Patch>& patches,
 	std::int64_t& work)
 {
@@ -317,7 +332,7 @@ std::vector<Untangled> solveAll(
 		static_cast<int>(std::min(work / ofStep, std::int64_t(std::numeric_limits<int>::max())));
 	tasksInParallel(
 		static_cast<int>(patches.size()), threadsFor(kExpectedSteps * triangles), [&](int i) {
-			found[positionOf(i)] = solve({flat, groups, rules, patches[positionOf(i)], maxSteps});
+			found[positionOf(i)] = solve(flat, groups, rules, patches[positionOf(i)], maxSteps);
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
 		work -= found[i].steps * workOfStep(patches[i]);

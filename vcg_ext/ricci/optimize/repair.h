@@ -29,16 +29,6 @@ struct RepairRules
 	BoundaryRepair boundary = BoundaryRepair::Free;
 };
 
-/// A patch whose triangles are to be valid, and as near to the shapes of the rules as its border lets them be.
-struct PatchProblem
-{
-	const FlatMesh& flat;
-	const PointGroups& groups;
-	const RepairRules& rules;
-	const Patch& patch;
-	int maxSteps; ///< of Newton in all; then the search is over
-};
-
 /// What untangle() found.
 struct Untangled
 {
@@ -47,7 +37,8 @@ struct Untangled
 	int steps = 0; ///< of Newton
 };
 
-/// Moves the inner points of a patch until all its triangles are valid.
+/// Moves the inner points of a patch until all its triangles are valid, and as near to the shapes of the rules as its
+/// border lets them be.
 ///
 /// It minimises the sum over the triangles of w (|J|^2 + lambda (1 + det^2 J)) / chi(det J), where
 /// J is the linear map from the rest shape, w its area, and chi(d) = (d + sqrt(eps^2 + d^2)) / 2 is
@@ -55,10 +46,21 @@ struct Untangled
 /// positive determinants remain [Garanzha et al. 2021, Eq. 3]. The steps are Newton's, with each
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
-Untangled untangle(const PatchProblem& problem);
+/// \param maxSteps of Newton in all; then the search is over
+Untangled untangle(
+	const FlatMesh& flat,
+	const PointGroups& groups,
+	const RepairRules& rules,
+	const Patch& patch,
+	int maxSteps);
 
 /// Lowers the same energy, with eps = 0, on a patch that is valid, which it stays.
-Untangled ease(const PatchProblem& problem);
+Untangled ease(
+	const FlatMesh& flat,
+	const PointGroups& groups,
+	const RepairRules& rules,
+	const Patch& patch,
+	int maxSteps);
 
 /// What repair() has done.
 struct Repair

@@ -172,17 +172,16 @@ int EdgeCrossings::endNumber(const NormalCoordinates::Crossing& x) const
 /// Unfolds the start triangles along each input edge; the edge is straight there.
 void EdgeCrossings::placeInputCrossings()
 {
-	Strip strip;
+	std::vector<std::array<Point2, 2>> crossed;
 	for (const Edge e : inputCurves.indices()) {
 		const Curve& curve = inputCurves[e];
 		if (curve.crossings.empty())
 			continue;
-		unfold(m_start, m_flow.start.mesh.lengths, curve, strip);
-		const Point2 last = strip.end;
+		const Point2 last = unfold(m_start, m_flow.start.mesh.lengths, curve, crossed);
 		const double size2 = dot(last, last);
 		double before = 0.0; // share of the crossing before on the input edge
-		for (std::size_t i = 0; i < strip.sides.size(); ++i) {
-			const auto& [p, q] = strip.sides[i];
+		for (std::size_t i = 0; i < crossed.size(); ++i) {
+			const auto& [p, q] = crossed[i];
 			const double dp = cross(p, last), dq = cross(q, last);
 			const double t = keepInside(dp / (dp - dq));
 			const Point2 x{mix(p[0], q[0], t), mix(p[1], q[1], t)};
@@ -226,7 +225,8 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 		const Real from = vanishing(first[i].from, second[i].from);
 		const Real to = vanishing(first[i].to, second[i].to);
 		const Real terms = size(first[i].from, second[i].from) + size(first[i].to, second[i].to);
-		isExact = isExact && abs(from) + abs(to) >= Real(kMinDifference) * terms;
+		// Less has lost the digits that places need.
+		isExact = isExact && abs(from) + abs(to) >= Real(kSmall) * terms;
 		// The crossing is |to| x_from + |from| x_to, both weights positive.
 		Values<Real> weight{abs(to), abs(from)};
 		if (!isPositive(double(weight.from)) || !isPositive(double(weight.to)) ||

@@ -121,15 +121,18 @@ public:
 		const auto [i, j] = m_start.ends(e);
 		const double gi = m_startRadius[i], gj = m_startRadius[j];
 		const Curve& curve = m_crossings.startCurves[e];
-		WeightsAndSum before{{1.0, 0.0}, 1.0 / m_endRadius[i]};
+		// Of the last crossing with an end edge, or the end of the start edge: the weight sum is in the end metric.
+		EdgeWeights before{1.0, 0.0};
+		double sumBefore = 1.0 / m_endRadius[i];
 		int passed = 0; // end edges crossed so far
 		for (int k = 0; k < nodes.size(); ++k) {
 			PointOnEnd& end = first[k].end;
 			if (nodes[k].end >= 0) {
 				const EndCrossing& x = m_crossings.endCrossings[nodes[k].end];
 				end = PointOnEnd(x.edge, shareOnEnd(x));
-				before = {x.onStart, onEndMetric(x).sum()};
-				first[k].scale = before.sumOnEnd / x.onStart.over(gi, gj).sum();
+				before = x.onStart;
+				sumBefore = onEndMetric(x).sum();
+				first[k].scale = sumBefore / x.onStart.over(gi, gj).sum();
 				++passed;
 				continue;
 			}
@@ -144,17 +147,17 @@ public:
 			int next = k + 1;
 			while (next < nodes.size() && nodes[next].end < 0)
 				++next;
-			WeightsAndSum after{{0.0, 1.0}, 1.0 / m_endRadius[j]};
+			EdgeWeights after{0.0, 1.0};
+			double sumAfter = 1.0 / m_endRadius[j];
 			if (next < nodes.size()) {
 				const EndCrossing& x = m_crossings.endCrossings[nodes[next].end];
-				after = {x.onStart, onEndMetric(x).sum()};
+				after = x.onStart;
+				sumAfter = onEndMetric(x).sum();
 			}
 			// here = s before + r after, in weights of the start's metric.
-			const double det = determinant(before.onStart, after.onStart);
-			const double s =
-				std::max(0.0, determinant(here, after.onStart) / det) * before.sumOnEnd;
-			const double r =
-				std::max(0.0, determinant(before.onStart, here) / det) * after.sumOnEnd;
+			const double det = determinant(before, after);
+			const double s = std::max(0.0, determinant(here, after) / det) * sumBefore;
+			const double r = std::max(0.0, determinant(before, here) / det) * sumAfter;
 			const double share = keepInside(EdgeWeights{s, r}.affine());
 			const FaceWeights from = startOfInterval(e, passed), to = endOfInterval(e, passed);
 			FaceWeights weights;
@@ -166,13 +169,6 @@ public:
 
 private:
 	using Curve = EdgeCrossings::Curve;
-
-	/// A crossing with an end edge, or an end of the start edge.
-	struct WeightsAndSum
-	{
-		EdgeWeights onStart;
-		double sumOnEnd; ///< weight sum in the end metric
-	};
 
 	/// Weights of the ends of the end edge in the end metric.
 	EdgeWeights onEndMetric(const EndCrossing& x) const

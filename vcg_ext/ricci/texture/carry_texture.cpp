@@ -160,28 +160,18 @@ void writeColour(
 	bool hasAlpha,
 	Sample* rgba)
 {
-	constexpr double kMax = std::numeric_limits<Sample>::max();
+	const double most = std::numeric_limits<Sample>::max();
 	for (std::size_t c = 0; c < 4; ++c) {
 		double colour = 0.0;
 		for (std::size_t k = 0; k < 3; ++k)
 			for (std::size_t j = 0; j < 3; ++j)
 				colour +=
 					weights[k] * triangle.corners[k][j] * static_cast<double>(face.colour[j][c]);
-		rgba[c] = static_cast<Sample>(std::lround(std::clamp(kMax * colour, 0.0, kMax)));
+		rgba[c] = static_cast<Sample>(std::lround(std::clamp(most * colour, 0.0, most)));
 	}
 	if (!hasAlpha)
 		rgba[3] = std::numeric_limits<Sample>::max();
 }
-
-/// One old picture, and which chart each texel of it belongs to.
-template<class Sample>
-struct OldPicture
-{
-	int number;
-	const PictureView<const Sample>& view;
-	OldOwners owners;
-	PictureSampler<Sample> sampler;
-};
 
 /// Draws the texels of all triangles in one old picture after the other.
 template<class Sample>
@@ -202,13 +192,10 @@ public:
 			m_pictures(positionOf(m_inARow) * positionOf(m_rows))
 	{
 		const auto isAny = [](const std::vector<int>&) { return true; };
-		forEachTile(isAny, [&](const Tile& tile) {
-			std::vector<int>& pictures = m_pictures[tile.number];
-			forEachRun(tile, [&](const Run&, const CarriedTriangle& triangle) {
-				const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
-				if (!contains(pictures, picture))
-					pictures.push_back(picture);
-			});
+		forEachRun(isAny, [&](std::size_t tile, const Run&, const CarriedTriangle& triangle) {
+			const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
+			if (!contains(m_pictures[tile], picture))
+				m_pictures[tile].push_back(picture);
 		});
 	}
 
@@ -232,28 +219,31 @@ public:
 		return levels;
 	}
 
-	/// \param old nullptr: the faces without a picture
-	void draw(const OldPicture<Sample>* old) const
+	/// The faces with one old picture.
+	/// \param owners which chart each texel of it belongs to
+	void draw(int picture, const OldOwners& owners, const PictureSampler<Sample>& sampler) const
 	{
-		const int picture = old ? old->number : -1;
-		const auto shows = [&](const std::vector<int>& pictures) {
-			return contains(pictures, picture);
-		};
-		forEachTile(shows, [&](const Tile& tile) {
-			forEachRun(tile, [&](const Run& run, const CarriedTriangle& triangle) {
-				if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
-					drawRun(run, triangle, old);
-			});
+		forEachRunOf(picture, [&](const Run& run, const CarriedTriangle& triangle) {
+			drawRun(run, triangle, owners, sampler);
+		});
+	}
+
+	/// The faces without a picture.
+	void drawColours() const
+	{
+		forEachRunOf(-1, [&](const Run& run, const CarriedTriangle& triangle) {
+			const TriangleMap map = mapOf(triangle, 0, 0);
+			for (int x = run.first; x < run.last; ++x)
+				writeColour(
+					m_mesh.faces[positionOf(triangle.face)],
+					triangle,
+					map.weights({x + 0.5, run.y + 0.5}),
+					m_hasAlpha,
+					m_result.rgba + 4 * m_result.index(x, run.y));
 		});
 	}
 
 private:
-	struct Tile
-	{
-		std::size_t number;
-		int left, right, top, bottom; // right and bottom are not in it
-	};
-
 	/// Texels of a row that show one triangle.
 	struct Run
 	{
@@ -265,40 +255,41 @@ private:
 		return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
 	}
 
-	/// Calls visit(tile) in many threads where concerns(the tile's pictures).
+	/// Calls visit(tile, run, its triangle) for the runs of each tile, in many threads, where concerns(the tile's pictures).
 	template<class Concerns, class Visit>
-	void forEachTile(const Concerns& concerns, const Visit& visit) const
+	void forEachRun(const Concerns& concerns, const Visit& visit) const
 	{
 		tasksInParallel(m_rows, m_threads, [&](int row) {
 			for (int i = 0; i < m_inARow; ++i) {
-				const Tile tile{
-					positionOf(row * m_inARow + i),
-					i * kTile,
-					std::min((i + 1) * kTile, m_result.width),
-					row * kTile,
-					std::min((row + 1) * kTile, m_result.height)};
-				if (!concerns(m_pictures[tile.number]))
+				const std::size_t tile = positionOf(row * m_inARow + i);
+				if (!concerns(m_pictures[tile]))
 					continue;
 				advance(static_cast<double>(row) / m_rows, "Drawing the texture");
-				visit(tile);
+				const int end = std::min((i + 1) * kTile, m_result.width);
+				for (int y = row * kTile; y < std::min((row + 1) * kTile, m_result.height); ++y)
+					for (int x = i * kTile; x < end;) {
+						const int number = m_sources.triangle(m_result.index(x, y)), first = x;
+						do
+							++x;
+						while (x < end && m_sources.triangle(m_result.index(x, y)) == number);
+						if (number >= 0)
+							visit(tile, Run{y, first, x}, m_mesh.triangles[positionOf(number)]);
+					}
 			}
 		});
 	}
 
-	/// visit(run, its triangle)
+	/// Calls visit(run, its triangle) for the runs of the faces with a picture; -1: without one.
 	template<class Visit>
-	void forEachRun(const Tile& tile, const Visit& visit) const
+	void forEachRunOf(int picture, const Visit& visit) const
 	{
-		for (int y = tile.top; y < tile.bottom; ++y)
-			for (int x = tile.left; x < tile.right;) {
-				const int number = m_sources.triangle(m_result.index(x, y));
-				const int first = x;
-				do
-					++x;
-				while (x < tile.right && m_sources.triangle(m_result.index(x, y)) == number);
-				if (number >= 0)
-					visit(Run{y, first, x}, m_mesh.triangles[positionOf(number)]);
-			}
+		const auto shows = [&](const std::vector<int>& pictures) {
+			return contains(pictures, picture);
+		};
+		forEachRun(shows, [&](std::size_t, const Run& run, const CarriedTriangle& triangle) {
+			if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
+				visit(run, triangle);
+		});
 	}
 
 	/// \param width, height of its picture
@@ -310,24 +301,14 @@ private:
 			oldTexels(m_mesh.faces[positionOf(triangle.face)], width, height));
 	}
 
-	void
-	drawRun(const Run& run, const CarriedTriangle& triangle, const OldPicture<Sample>* old) const
+	void drawRun(
+		const Run& run,
+		const CarriedTriangle& triangle,
+		const OldOwners& owners,
+		const PictureSampler<Sample>& sampler) const
 	{
-		const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
-		const TriangleMap map =
-			mapOf(triangle, old ? old->view.width : 0, old ? old->view.height : 0);
-		if (old == nullptr) {
-			for (int x = run.first; x < run.last; ++x)
-				writeColour(
-					face,
-					triangle,
-					map.weights({x + 0.5, run.y + 0.5}),
-					m_hasAlpha,
-					m_result.rgba + 4 * m_result.index(x, run.y));
-			return;
-		}
-		const PictureSampler<Sample>& sampler = old->sampler;
-		const OldOwners::Chart chart = old->owners.of(m_charts[positionOf(triangle.face)]);
+		const TriangleMap map = mapOf(triangle, sampler.picture().width, sampler.picture().height);
+		const OldOwners::Chart chart = owners.of(m_charts[positionOf(triangle.face)]);
 		const Footprint footprint = map.footprint();
 		for (int x = run.first; x < run.last; ++x) {
 			const std::size_t texel = m_result.index(x, run.y);
@@ -393,12 +374,11 @@ void carryTexture(
 			const PictureView<const Sample>& view = pictures[i];
 			OldOwners owners(mesh.faces, charts, faces[i], view.width, view.height);
 			owners.addLevels(lastLevels[i]);
-			const OldPicture<Sample> old{
-				static_cast<int>(i), view, std::move(owners), {view, hasAlpha, lastLevels[i]}};
-			drawing.draw(&old);
+			drawing.draw(
+				static_cast<int>(i), owners, PictureSampler<Sample>(view, hasAlpha, lastLevels[i]));
 		}
 		if (!faces.back().empty())
-			drawing.draw(nullptr);
+			drawing.drawColours();
 		covered = sources.covered();
 	}
 	fillFromNearest(covered, result, threads);

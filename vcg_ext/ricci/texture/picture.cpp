@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture.h"
 
+#include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 
@@ -50,59 +51,42 @@ offsetsInColumns(const std::vector<char>& covered, const PictureView<Sample>& pi
 	return offsets;
 }
 
-/// The columns whose covered texels are the nearest ones of a row: the lower envelope of the parabolas
-/// (x - column)^2 + offset^2.
-class Envelope
+/// [x] The column whose covered texel is the nearest one of a row, of those with \p offsets, which not all are kNone: by
+/// the lower envelope of the parabolas (x - column)^2 + offset^2.
+std::vector<int> nearestColumns(const std::int16_t* offsets, int width)
 {
-public:
-	explicit Envelope(int width)
-	{
-		m_columns.reserve(static_cast<std::size_t>(width));
-		m_from.reserve(static_cast<std::size_t>(width));
-	}
-
-	void build(const std::int16_t* offsets, int width)
-	{
-		m_columns.clear();
-		m_from.clear();
-		for (int x = 0; x < width; ++x) {
-			if (offsets[x] == kNone)
-				continue;
-			double from = 0.0;
-			while (!m_columns.empty()) {
-				const int other = m_columns.back();
-				from = (height(offsets, x) - height(offsets, other)) / (2.0 * (x - other));
-				if (from > m_from.back())
-					break;
-				m_columns.pop_back();
-				m_from.pop_back();
-				from = 0.0;
-			}
-			m_columns.push_back(x);
-			m_from.push_back(m_columns.size() == 1 ? -1.0 : from);
-		}
-	}
-
-	bool empty() const { return m_columns.empty(); }
-
-	/// The columns for x = 0, 1, ... in turn; \p place starts at 0.
-	int columnAt(int x, std::size_t& place) const
-	{
-		while (place + 1 < m_columns.size() && m_from[place + 1] < x)
-			++place;
-		return m_columns[place];
-	}
-
-private:
-	static double height(const std::int16_t* offsets, int x)
-	{
+	const auto height = [&](int x) {
 		const double offset = offsets[x];
 		return offset * offset + static_cast<double>(x) * x;
+	};
+	std::vector<int> columns;
+	std::vector<double> begin; // [of columns] where its parabola becomes the lowest
+	for (int x = 0; x < width; ++x) {
+		if (offsets[x] == kNone)
+			continue;
+		double from = 0.0;
+		while (!columns.empty()) {
+			const int other = columns.back();
+			from = (height(x) - height(other)) / (2.0 * (x - other));
+			if (from > begin.back())
+				break;
+			columns.pop_back();
+			begin.pop_back();
+			from = 0.0;
+		}
+		columns.push_back(x);
+		begin.push_back(columns.size() == 1 ? -1.0 : from);
 	}
-
-	std::vector<int> m_columns;
-	std::vector<double> m_from; // [of m_columns] where its parabola becomes the lowest
-};
+	std::vector<int> nearest;
+	nearest.reserve(static_cast<std::size_t>(width));
+	std::size_t place = 0;
+	for (int x = 0; x < width; ++x) {
+		while (place + 1 < columns.size() && begin[place + 1] < x)
+			++place;
+		nearest.push_back(columns[place]);
+	}
+	return nearest;
+}
 
 } // namespace
 
@@ -113,23 +97,22 @@ void fillFromNearest(
 	const std::vector<std::int16_t> offsets = offsetsInColumns(covered, picture, threads);
 	const int tasks = (picture.height + kRows - 1) / kRows;
 	tasksInParallel(tasks, threads, [&](int task) {
-		Envelope envelope(picture.width);
 		const int last = std::min((task + 1) * kRows, picture.height);
 		for (int y = task * kRows; y < last; ++y) {
 			checkpoint();
 			const std::int16_t* row = &offsets[picture.index(0, y)];
-			if (std::all_of(row, row + picture.width, [](std::int16_t o) { return o == 0; }))
+			const auto areAll = [&](std::int16_t offset) {
+				return std::all_of(row, row + picture.width, [&](auto o) { return o == offset; });
+			};
+			if (areAll(0) || areAll(kNone))
 				continue;
-			envelope.build(row, picture.width);
-			std::size_t place = 0;
-			for (int x = 0; x < picture.width && !envelope.empty(); ++x) {
-				const int column = envelope.columnAt(x, place);
-				if (row[x] != 0)
+			const std::vector<int> nearest = nearestColumns(row, picture.width);
+			for (int x = 0; x < picture.width; ++x)
+				if (const int column = nearest[positionOf(x)]; row[x] != 0)
 					std::copy_n(
 						picture.rgba + 4 * picture.index(column, y + row[column]),
 						4,
 						picture.rgba + 4 * picture.index(x, y));
-			}
 		}
 	});
 }

@@ -139,6 +139,8 @@ public:
 			addLevel(level);
 	}
 
+	const PictureView<const Sample>& picture() const { return m_picture; }
+
 	/// The mean over the footprint at \p p of what belongs to the chart.
 	/// \return whether there is any; nothing is written otherwise
 	bool mean(const Point2& p, const Footprint& footprint, const Chart& chart, Sample* rgba) const

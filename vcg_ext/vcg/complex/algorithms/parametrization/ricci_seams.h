@@ -29,7 +29,7 @@ public:
 	typedef typename Flow::SideMarks SideMarks;
 	typedef typename MeshType::FaceType FaceType;
 
-	/// Edges at which the wedge texture coordinates of two faces jump, see ricci::MapJumps; the same edges are
+	/// Edges at which the wedge texture coordinates of two faces jump, see ricci::jumpsOf(); the same edges are
 	/// seams where RicciFlow::ReadMap() is handed to RicciFlow. Coordinates of vertices jump at no edge: a mesh
 	/// that has only those is open at its seams.
 	static SideMarks OfTexture(const MeshType& m)
@@ -37,7 +37,7 @@ public:
 		if (!HasPerWedgeTexCoord(m))
 			return SideMarks();
 		const typename Flow::TextureMap map = Flow::ReadMap(m);
-		const ricci::MapJumps jumps(map);
+		const auto jumps = ricci::jumpsOf(map);
 		return Between(
 			m, [&](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
 				const int i = int(Index(m, f)), j = int(Index(m, g));
