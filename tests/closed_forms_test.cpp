@@ -183,28 +183,10 @@ double modulusOfL()
 /// The L of three squares of n x n cells without [1,2]^2; \p select corners by their place.
 SurfaceMesh shapeL(int n)
 {
-	SurfaceMesh square = rectangle(2 * n, 2 * n, 2.0, 2.0), mesh;
-	std::vector<int> number(square.positions.size(), -1);
-	for (const Triangle& t : square.triangles) {
-		double x = 0.0, y = 0.0;
-		for (int v : t) {
-			x += square.positions[at(v)][0] / 3;
-			y += square.positions[at(v)][1] / 3;
-		}
-		if (x > 1 && y > 1)
-			continue;
-		Triangle own = t;
-		for (int& v : own) {
-			int& i = number[at(v)];
-			if (i < 0) {
-				i = static_cast<int>(mesh.positions.size());
-				mesh.positions.push_back(square.positions[at(v)]);
-			}
-			v = i;
-		}
-		mesh.triangles.push_back(own);
-	}
-	return mesh;
+	return partOf(rectangle(2 * n, 2 * n, 2.0, 2.0), [&](std::size_t f) {
+		const int cell = static_cast<int>(f / 2);
+		return cell / (2 * n) < n || cell % (2 * n) < n;
+	});
 }
 
 double aspect(const SurfaceMesh& mesh, const std::vector<Point2>& corners)

@@ -239,6 +239,20 @@ std::array<std::vector<std::complex<double>>, 2> sidesOfHalves(const FlatResult&
 	return sides;
 }
 
+/// turnOf(side) of the first half is one turn in each of its \p charts.
+template<class TurnOf>
+void expectOneTurnEach(const FlatResult& map, int charts, const TurnOf& turnOf)
+{
+	std::map<int, std::complex<double>> turns; // of charts
+	for (std::size_t i = 0; i < 3 * (map.uv.size() / 2); ++i) {
+		const std::complex<double> turn = turnOf(i);
+		const int chart = map.mesh.chart[static_cast<int>(i / 3)];
+		EXPECT_NEAR(std::abs(turn), 1.0, 1e-4); // of floats in the square
+		EXPECT_NEAR(std::abs(turn - turns.emplace(chart, turn).first->second), 0.0, 1e-4);
+	}
+	EXPECT_EQ(static_cast<int>(turns.size()), charts);
+}
+
 /// A copy by a rigid motion, as floats have it, is cut and drawn alike, and solved once.
 TEST(Copies, LookAlike)
 {
@@ -253,14 +267,8 @@ TEST(Copies, LookAlike)
 	EXPECT_EQ(both.report.cones, 2 * single.report.cones);
 	EXPECT_EQ(both.report.overlappingFaces, 0);
 	const auto sides = sidesOfHalves(both);
-	std::map<int, std::complex<double>> turns; // of charts
-	for (std::size_t i = 0; i < sides[0].size(); ++i) {
-		const std::complex<double> turn = sides[1][i] / sides[0][i];
-		const int chart = both.mesh.chart[static_cast<int>(i / 3)];
-		EXPECT_NEAR(std::abs(turn), 1.0, 1e-4); // of floats in the square
-		EXPECT_NEAR(std::abs(turn - turns.emplace(chart, turn).first->second), 0.0, 1e-4);
-	}
-	EXPECT_EQ(static_cast<int>(turns.size()), single.report.charts);
+	expectOneTurnEach(
+		both, single.report.charts, [&](std::size_t i) { return sides[1][i] / sides[0][i]; });
 }
 
 /// A mirror image, whose triangles list their corners in any order, is drawn mirrored: its charts are turned, and not
@@ -291,16 +299,11 @@ TEST(Copies, MirrorImagesAreMirrored)
 			if (isRefined)
 				continue; // its pieces have no order
 			const auto sides = sidesOfHalves(both);
-			std::map<int, std::complex<double>> turns; // of charts
-			for (std::size_t i = 0; i < sides[0].size(); ++i) {
-				// The side between the same corners, which runs the other way.
-				const std::size_t face = i / 3, j = 3 * face + order[(i % 3 + 1) % 3];
-				const std::complex<double> turn = -sides[1][j] / std::conj(sides[0][i]);
-				const int chart = both.mesh.chart[static_cast<int>(face)];
-				EXPECT_NEAR(std::abs(turn), 1.0, 1e-4); // of floats in the square
-				EXPECT_NEAR(std::abs(turn - turns.emplace(chart, turn).first->second), 0.0, 1e-4);
-			}
-			EXPECT_EQ(static_cast<int>(turns.size()), single.report.charts);
+			expectOneTurnEach(both, single.report.charts, [&](std::size_t i) {
+				// By the side between the same corners, which runs the other way.
+				const std::size_t j = i - i % 3 + order[(i % 3 + 1) % 3];
+				return -sides[1][j] / std::conj(sides[0][i]);
+			});
 		}
 }
 

@@ -4,6 +4,7 @@
 #include "support/expect.h"
 #include "support/facade_runs.h"
 #include "support/failing_malloc.h"
+#include "support/flat_map.h"
 #include "support/listener.h"
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
@@ -300,8 +301,7 @@ TEST(Faults, AReadOnlyMeshIsOnlyRead)
 {
 	Random random(503);
 	for (const SurfaceMesh& shape : {bumpyTorus(40, 30, random), rectangle(30, 30, 1, 1)})
-		for (OutputTriangulation output :
-			 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		for (const OutputTriangulation output : kOutputs) {
 			FloatMesh m;
 			build(shape, m);
 			const std::string before = contents(m);

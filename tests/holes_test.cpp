@@ -61,8 +61,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 {
 	const SurfaceMesh mesh = perforated(16, 0.0);
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+	for (const OutputTriangulation output : kOutputs) {
 		Options options = capped();
 		options.output = output;
 		const FlatResult flat = run(mesh, options);
@@ -182,13 +181,10 @@ TEST(CheaperHoles, AreCappedWhereSeamsToThemSaveNothing)
 	const SurfaceMesh wall = grid(nu, nv, Ends::Open, Ends::Open, [&](int i, int j) {
 		return Point3{0.5 * i, 0.5 * j, random.real(-0.05, 0.05)};
 	});
-	SurfaceMesh mesh = wall;
-	mesh.triangles.clear();
-	for (std::size_t f = 0; f < wall.triangles.size(); ++f) {
+	const SurfaceMesh mesh = partOf(wall, [&](std::size_t f) {
 		const int cell = static_cast<int>(f / 2), i = cell / nv, j = cell % nv;
-		if (i % 10 < 4 || i % 10 > 6 || j % 10 < 3 || j % 10 > 6)
-			mesh.triangles.push_back(wall.triangles[f]);
-	}
+		return i % 10 < 4 || i % 10 > 6 || j % 10 < 3 || j % 10 > 6;
+	});
 	Options open;
 	open.holes = Holes::Boundaries;
 	const Report seams = run(mesh, open).report, report = run(mesh, Options()).report;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results have the input's vertices and faces, whatever had to be cut open or left out.
 #include "support/bad_surfaces.h"
+#include "support/flat_map.h"
 
 #include <ricci/parametrize.h>
 
@@ -8,9 +9,6 @@
 
 namespace ricci::testing {
 namespace {
-
-constexpr OutputTriangulation kOutputs[] = {
-	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
 
 Parametrization mapOf(const SurfaceMesh& mesh, OutputTriangulation output)
 {

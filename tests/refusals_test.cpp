@@ -141,14 +141,6 @@ HyperbolicOptions target(HyperbolicTarget target, double coneAngle = 1.0)
 	return options;
 }
 
-SurfaceType type(int genus, int loops)
-{
-	SurfaceType type;
-	type.genus = genus;
-	type.boundaryLoops = loops;
-	return type;
-}
-
 std::vector<Refusal> options()
 {
 	Table table;
@@ -287,11 +279,11 @@ std::vector<Refusal> targets()
 	using E = InvalidOption;
 	using C = InadmissibleCurvature;
 	const std::tuple<std::string, SurfaceMesh, SurfaceType> surfaces[] = {
-		{"Sphere", solid, type(0, 0)},
-		{"Torus", donut, type(1, 0)},
-		{"Annulus", tube, type(0, 2)},
-		{"Genus2", slab, type(2, 0)},
-		{"Disk", sheet, type(0, 1)}};
+		{"Sphere", solid, SurfaceType{0, 0}},
+		{"Torus", donut, SurfaceType{1, 0}},
+		{"Annulus", tube, SurfaceType{0, 2}},
+		{"Genus2", slab, SurfaceType{2, 0}},
+		{"Disk", sheet, SurfaceType{0, 1}}};
 	for (const auto& [name, mesh, kind] : surfaces) {
 		const std::string words = kind.name();
 		for (const TargetCurvature t : {TargetCurvature::Disk, TargetCurvature::Rectangle})
@@ -398,7 +390,7 @@ std::vector<Refusal> curvatures()
 	};
 	const double kDeep = -16.5 * kPi; // 18 boundary vertices: sum K inside > 2 pi - 18 pi
 	const E deep(E::FreeBoundary, kDeep, -16 * kPi, 18);
-	const E sum(E::HyperbolicSum, -0.5, 0.0, 0, type(1, 0));
+	const E sum(E::HyperbolicSum, -0.5, 0.0, 0, SurfaceType{1, 0});
 	add("NaN", donut, plane, {{3, kNaN}}, E(E::NotFinite, 0, 0, 1), "1 vertex");
 	add("Infinite", slab, disk, {{3, kInfinity}, {5, kNaN}}, E(E::NotFinite, 0, 0, 2), "2 vert");
 	add("Torus", donut, plane, {{3, 0.75}, {9, -0.25}}, E(E::GaussBonnet, 0.5), "adds up to 0.5");
@@ -432,7 +424,7 @@ std::vector<Refusal> curvatures()
 	table.add( // 3 pi of curvature on a sphere
 		"ThreeCones",
 		{"", solid, target(HyperbolicTarget::SelectedCones, kPi), selecting(solid, {0, 5, 9})},
-		E(E::HyperbolicSum, 3 * kPi, 4 * kPi, 0, type(0, 0)),
+		E(E::HyperbolicSum, 3 * kPi, 4 * kPi, 0, SurfaceType{0, 0}),
 		"2 pi chi = 12.5663706");
 	// All the negative curvature of many handles is moved to one small hole.
 	const SurfaceMesh handles = withoutStars(perforatedSlab(10, 2), {0});

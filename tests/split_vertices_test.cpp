@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vertices that a format has split: what is joined, what stays apart, and that results are for the vertices given.
 #include "support/calls.h"
+#include "support/flat_map.h"
 #include "support/random.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -355,8 +356,7 @@ TEST(SplitVertices, GiveTheMapOfTheMeshThatSharesThem)
 {
 	for (const SurfaceMesh& mesh : {sphere(8, 12), torus(3, 1, 12, 8), cube()}) {
 		const SurfaceMesh split = soup(mesh);
-		for (const OutputTriangulation output :
-			 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		for (const OutputTriangulation output : kOutputs) {
 			Options options;
 			options.output = output;
 			const Parametrization shared = parametrizeEuclidean(mesh, {}, options),

@@ -57,30 +57,15 @@ SurfaceMesh helicoid(int turns, double ridge)
 SurfaceMesh plate(int rows)
 {
 	const int n = 6 * rows;
-	const auto isHole = [](int i, int j) { return i % 6 / 2 == 1 && j % 6 / 2 == 1; };
 	const SurfaceMesh whole =
 		testing::grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) -> Point3 {
 			const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
 			return {x, y, 0.3 * std::sin(2 * x) * std::cos(1.5 * y)};
 		});
-	SurfaceMesh mesh;
-	std::vector<int> number(whole.positions.size(), -1);
-	for (std::size_t f = 0; f < whole.triangles.size(); ++f) {
+	return testing::partOf(whole, [&](std::size_t f) {
 		const int cell = static_cast<int>(f / 2);
-		if (isHole(cell / n, cell % n))
-			continue;
-		Triangle t = whole.triangles[f];
-		for (int& v : t) {
-			int& own = number[testing::at(v)];
-			if (own < 0) {
-				own = static_cast<int>(mesh.positions.size());
-				mesh.positions.push_back(whole.positions[testing::at(v)]);
-			}
-			v = own;
-		}
-		mesh.triangles.push_back(t);
-	}
-	return mesh;
+		return cell / n % 6 / 2 != 1 || cell % n % 6 / 2 != 1;
+	});
 }
 
 /// That sheet with two sides: a closed surface of genus rows^2.

@@ -76,14 +76,6 @@ std::string currentSentenceOf(void (*call)())
 	return "";
 }
 
-SurfaceType surface(int genus, int boundaryLoops)
-{
-	SurfaceType type;
-	type.genus = genus;
-	type.boundaryLoops = boundaryLoops;
-	return type;
-}
-
 TEST(Sentences, EveryInvalidMeshHasOne)
 {
 	const std::vector<int> withoutCount = {
@@ -133,7 +125,7 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		const auto problem = static_cast<InvalidOption::Problem>(i);
 		expectSentence(InvalidOption(problem, -17.0, 23.0, 61), numbers[i]);
 		for (TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle})
-			expectSentence(InvalidOption(problem, target, surface(2, 3)), {});
+			expectSentence(InvalidOption(problem, target, SurfaceType{2, 3}), {});
 	}
 }
 
@@ -151,7 +143,8 @@ TEST(Sentences, EveryInadmissibleCurvatureHasOne)
 		{InadmissibleCurvature::HyperbolicSurface, {"genus 4", "5 boundary loops", "-11"}}};
 	for (int i = InadmissibleCurvature::NotFinite; i <= InadmissibleCurvature::HyperbolicSum; ++i) {
 		const auto problem = static_cast<InadmissibleCurvature::Problem>(i);
-		expectSentence(InadmissibleCurvature(problem, 7.5, 2.25, 61, surface(4, 5)), numbers[i]);
+		expectSentence(
+			InadmissibleCurvature(problem, 7.5, 2.25, 61, SurfaceType{4, 5}), numbers[i]);
 	}
 }
 
@@ -232,7 +225,7 @@ TEST(Sentences, AreTheseWords)
 		 "The value -5 of {sharp_angle} cannot be used. Use degrees above 0, at most 180."},
 		{option(InvalidOption::ConeAngle, -5.0 * (kPi / 180.0)),
 		 "{cone_angle} must be greater than 0 degrees, not -5."},
-		{sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, surface(1, 0))),
+		{sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, SurfaceType{1, 0})),
 		 "'Disk' needs a topological disk (genus 0, one boundary loop), but the surface is a "
 		 "closed surface of genus 1 (a torus): choose seams that open it to disks, or another "
 		 "{target_curvature}."},

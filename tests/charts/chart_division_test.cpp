@@ -132,8 +132,7 @@ TEST(ChartDivision, KeepsPolygonsWhole)
 TEST(ChartDivision, OfAScrewSurfaceOnlyMovesItsParts)
 {
 	const SurfaceMesh mesh = screw(1.6, 70, 5, 0.3);
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+	for (const OutputTriangulation output : kOutputs) {
 		Options options;
 		options.output = output;
 		options.charts = Charts::OfTheFlow;

@@ -13,6 +13,9 @@ namespace ricci::testing {
 
 using UV = std::vector<Triangle2>;
 
+constexpr OutputTriangulation kOutputs[] = {
+	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
+
 /// What can be seen of a map to the plane without knowing how it was made. Faces must be coherently
 /// oriented.
 struct FlatMap

@@ -305,25 +305,32 @@ SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift)
 
 SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
-	SurfaceMesh open;
-	std::vector<int> index(mesh.positions.size(), -1);
-	for (const Triangle& t : mesh.triangles) {
-		if (std::any_of(t.begin(), t.end(), [&](int v) {
-				return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
-			}))
+	return partOf(mesh, [&](std::size_t f) {
+		const Triangle& t = mesh.triangles[f];
+		return std::none_of(t.begin(), t.end(), [&](int v) {
+			return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+		});
+	});
+}
+
+SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t)>& isKept)
+{
+	SurfaceMesh part;
+	std::vector<int> number(mesh.positions.size(), -1);
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		if (!isKept(f))
 			continue;
-		Triangle kept;
-		for (std::size_t k = 0; k < 3; ++k) {
-			int& i = index[at(t[k])];
-			if (i < 0) {
-				i = static_cast<int>(open.positions.size());
-				open.positions.push_back(mesh.positions[at(t[k])]);
+		part.triangles.push_back(mesh.triangles[f]);
+		for (int& v : part.triangles.back()) {
+			int& own = number[at(v)];
+			if (own < 0) {
+				own = static_cast<int>(part.positions.size());
+				part.positions.push_back(mesh.positions[at(v)]);
 			}
-			kept[k] = i;
+			v = own;
 		}
-		open.triangles.push_back(kept);
 	}
-	return open;
+	return part;
 }
 
 } // namespace ricci::testing

@@ -102,6 +102,9 @@ SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift)
 /// each vertex whose neighbours are not on the boundary or in the list.
 SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertices);
 
+/// The faces of \p mesh for which isKept(face), with their vertices in the order of these.
+SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t)>& isKept);
+
 } // namespace ricci::testing
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef RICCI_TESTS_WRITTEN_H
 #define RICCI_TESTS_WRITTEN_H
 
+#include "flat_map.h"
 #include "shapes.h"
 #include "vcg_mesh.h"
 
@@ -15,9 +16,6 @@
 #include <vector>
 
 namespace ricci::testing {
-
-constexpr OutputTriangulation kOutputs[] = {
-	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
 
 inline Options unscaled(OutputTriangulation output = OutputTriangulation::KeepMesh)
 {

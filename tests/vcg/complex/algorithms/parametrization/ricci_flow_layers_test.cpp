@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_map.h"
 #include "support/flat_meshes.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
@@ -156,8 +157,7 @@ TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
 		20.0);
 	TypeParam m;
 	toVcg(shape, m);
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+	for (const OutputTriangulation output : kOutputs) {
 		typename Flow<TypeParam>::HyperbolicParams par;
 		par.output = output;
 		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
