@@ -5,6 +5,7 @@
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 
+#include <ricci/charts/separate_charts.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
 
@@ -18,9 +19,6 @@
 
 namespace ricci::testing {
 namespace {
-
-/// A cut for packing brings this power of what its seam costs at least.
-constexpr double kPackingPrice = 2.3;
 
 /// Pieces over the plane as one mesh, one above the other.
 SurfaceMesh together(const std::vector<SurfaceMesh>& pieces)

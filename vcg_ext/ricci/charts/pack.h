@@ -45,9 +45,13 @@ void packCharts(
 	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
-/// little is left to win. Cuts in a row that bring nothing and whose prices together are kMaxLoss, a twelfth, are not
-/// made up for by further ones, of which there are kMaxCuts at most.
-constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75, kMaxLoss = 0.08;
+/// little is left to win. Cuts in a row that bring nothing and whose prices together are kMaxLoss are not made up for by
+/// further ones, of which there are kMaxCuts at most.
+///
+/// With kPackingPrice these keep seams and charts few where covered squares have 0.62 of their area: on 79 meshes this
+/// cost 0.15 % of the objective and four charts in a thousand beside a price of 2.3 (0.596), at which a scan in one or two
+/// charts was never cut.
+constexpr double kMinRoom = 0.015, kEnoughCovered = 0.75, kMaxLoss = 0.03;
 constexpr int kMaxCuts = 24;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by

@@ -29,9 +29,9 @@ void separateCharts(bool turns, bool reflects, Parametrization& map);
 /// \pre no chart overlaps itself
 void joinCharts(Parametrization& map);
 
-/// EdgeSet may grow by one part for this many parts more of covered square: the worth of a map is
+/// Seams may grow by one part for this many parts more of covered square: the worth of a map is
 /// log(occupancy) - kPackingPrice log(sqrt(area) + seams), up to a constant.
-constexpr double kPackingPrice = 2.3;
+constexpr double kPackingPrice = 0.7;
 
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
