@@ -344,7 +344,7 @@ TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
 TEST(ConeSearch, NoConeIsDroppedThatSavesMoreThanItsPrice)
 {
 	for (const double length : {2.0, 4.0, 8.0, 16.0, 32.0}) {
-		SurfaceMesh needle = sphere(8, 9);
+		SurfaceMesh needle = sphere(60, 12);
 		const auto isLower = [](const Point3& p, const Point3& q) { return p[2] < q[2]; };
 		const auto numberOf = [&](auto p) {
 			return static_cast<int>(p - needle.positions.begin());
