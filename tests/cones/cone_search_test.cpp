@@ -69,8 +69,9 @@ struct Search
 	ConeSites sites;
 	ConeModel model;
 
-	explicit Search(const SurfaceMesh& mesh, int vertices = -1) :
-			linear({"", mesh}), sites(linear.surface, vertices), model(linear.flow, linear.total())
+	explicit Search(const SurfaceMesh& mesh, int vertices = -1, double energyFactor = 1.0) :
+			linear({"", mesh}), sites(linear.surface, vertices),
+			model(linear.flow, linear.total(), energyFactor)
 	{
 	}
 
@@ -173,6 +174,18 @@ TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
 		EXPECT_TRUE(!cylinder.topology.boundary[v] || search.sites.toCut()[v] == 0.0);
 }
 
+/// On a torus they are the shortest loop of each kind, round the tube and round the hole.
+TEST(ConeSites, SeamsWithoutConesAreShort)
+{
+	const int around = 24, across = 12;
+	const Search search(torus(3.0, 1.0, around, across));
+	const EmbeddedSurface& surface = search.linear.surface;
+	const double area = euclideanArea(surface.triangulation, surface.lengths);
+	const double tube = 2 * across * std::sin(kPi / across);
+	const double hole = 2 * around * 2.0 * std::sin(kPi / around);
+	EXPECT_NEAR(search.sites.cutLength(), (tube + hole) / std::sqrt(area), 1e-9);
+}
+
 TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
 {
 	Random random(811);
@@ -207,7 +220,7 @@ TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
 
 double cost(const ConeModel& model, const SeamTree& tree)
 {
-	return kEnergyPrice * model.energy() + kSeamPrice * tree.length();
+	return model.priceOf(model.energy()) + kSeamPrice * tree.length();
 }
 
 TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
@@ -283,7 +296,7 @@ std::vector<Vertex> withoutCostlyCones(ConeModel& model, SeamTree& tree, std::ve
 		std::vector<double> loss;
 		for (int i = 0; i < model.size(); ++i)
 			model.tryWithout(i, [&] {
-				loss.push_back(kEnergyPrice * (present - model.energy()));
+				loss.push_back(model.priceOf(present - model.energy()));
 				return false;
 			});
 		for (int i = 0; i < model.size(); ++i)
@@ -310,7 +323,8 @@ TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
 			cones.emplace_back(2 * i);
 		for (std::size_t turn = 0; turn < cones.size(); ++turn) {
 			std::rotate(cones.begin(), cones.begin() + 1, cones.end());
-			Search search(slab(genus)), other(slab(genus));
+			const double energyFactor = turn % 2 == 0 ? 1.0 : 3.0;
+			Search search(slab(genus), -1, energyFactor), other(slab(genus), -1, energyFactor);
 			SeamTree tree(search.sites, cones), own(other.sites, cones);
 			EXPECT_TRUE(dropCostlyCones(search.with(cones).model, tree));
 			EXPECT_EQ(
@@ -323,6 +337,40 @@ TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
 	EXPECT_GT(std::count(dropped.begin(), dropped.end(), 0), 10);
 	EXPECT_GT(std::count(dropped.begin(), dropped.end(), 1), 10);
 	EXPECT_GT(kept, 10);
+}
+
+/// Two cones share the tip of a needle, which is more than one may have: without the other one is at its bound, and
+/// the energy rises by more than it would without bounds.
+TEST(ConeSearch, NoConeIsDroppedThatSavesMoreThanItsPrice)
+{
+	for (const double length : {2.0, 4.0, 8.0, 16.0, 32.0}) {
+		SurfaceMesh needle = sphere(60, 12);
+		const auto isLower = [](const Point3& p, const Point3& q) { return p[2] < q[2]; };
+		const auto numberOf = [&](auto p) {
+			return static_cast<int>(p - needle.positions.begin());
+		};
+		const int foot =
+			numberOf(std::min_element(needle.positions.begin(), needle.positions.end(), isLower));
+		for (Point3& p : needle.positions)
+			p[2] *= length;
+		Search search(withoutStars(needle, {foot})), other(withoutStars(needle, {foot}));
+		const VertexArray<Point3>& positions = search.linear.surface.positions;
+		std::vector<Vertex> cones;
+		for (const Vertex v : positions.indices())
+			cones.push_back(v);
+		std::stable_sort(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
+			return isLower(positions[b], positions[a]);
+		});
+		cones.resize(2);
+		ConeModel& model = search.with(cones).model;
+		EXPECT_GT(model.curvatures().sum(), kMaxConeCurvature);
+		SeamTree tree(search.sites, cones), own(other.sites, cones);
+		const double before = cost(model, tree) + kConePrice * model.size();
+		std::vector<int> dropped;
+		dropCostlyCones(model, tree);
+		EXPECT_LE(cost(model, tree) + kConePrice * model.size(), before * (1 + 1e-12));
+		EXPECT_EQ(model.vertices(), withoutCostlyCones(other.with(cones).model, own, dropped));
+	}
 }
 
 } // namespace

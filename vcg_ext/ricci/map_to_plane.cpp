@@ -22,12 +22,13 @@ constexpr double kMaxCurvatureBetween = 0.25;
 /// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
 constexpr double kPoorCost = 6.0;
 
-/// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
-/// spread of areas below these are tried: the linear model promises too much where scales differ much. The second is
-/// tried also where the map costs so much more than was expected, mostly for charts that cover themselves. Of 1800
-/// refinements of thin bars with quarter turns, 696 cost more than twice the best map with the first two, 4 with all.
+/// Where a map of cones costs so much more than was expected, others are tried: first those for what energy has turned
+/// out to cost, at most so many times what is expected, and then, if their map breaks the promise as well, those that
+/// bring the expected spread of areas below the second of the spreads. Where the map is poor all the same, all of these
+/// are tried: the linear model promises too much where scales differ much. Of 1800 refinements of thin bars with
+/// quarter turns, 696 cost more than twice the best map with the first two, 4 with all.
+constexpr double kBrokenPromise = 0.05, kMaxEnergyFactor = 8.0;
 constexpr double kSpreadsInstead[] = {0.5, 0.25, 0.125, 0.0625, 0.03125};
-constexpr double kBrokenPromise = 0.05;
 
 /// Capped holes are tried where the seams to them make at least this share of what the map is expected to cost above an
 /// isometry, or the map is poor. Of 92 components of shared meshes the 15 that gain have 0.37 and more, or are poor;
@@ -92,37 +93,72 @@ std::optional<Parametrization> otherMap(
 	});
 }
 
+/// The map of the cones that cost least where energy costs by that factor what is expected.
+/// \param alternative what another map costs
+/// \param expected receives what these are expected to cost
+/// \return none where that is no less than the alternative, or it fails
+std::optional<Parametrization> mapAtFactor(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	double energyFactor,
+	double alternative,
+	double& expected)
+{
+	auto map = attempt("the map before it stays", [&]() -> std::optional<Parametrization> {
+		FlowPlan plan = startOfPlan(component, input, options);
+		plan.request.energyFactor = energyFactor;
+		completePlan(options, alternative, plan);
+		expected = plan.target.expected ? plan.target.expected->total(energyFactor) : kInfinity;
+		if (!(expected < alternative))
+			return std::nullopt;
+		Parametrization next = flattenToPlane(component, std::move(plan), options);
+		separateCharts(options, next);
+		return next;
+	});
+	return map ? *std::move(map) : std::nullopt;
+}
+
 /// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
-/// \param expected what it was expected to cost
+/// \param expected what it was expected to cost; none where it may cost more
 /// \param alternative what another map costs
 Parametrization withOtherCones(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	double expected,
+	const std::optional<MapCost>& expected,
 	double alternative,
 	Parametrization map)
 {
 	if (map.report.targetUsed != TargetUsed::PlacedCones ||
 		goalOf(options.cones) != ConeGoal::LeastCost)
 		return map;
-	bool isTried = false;
-	for (const double spread : kSpreadsInstead) {
-		const double cost = std::min(costOf(map).total(), alternative);
-		const bool isBroken =
-			!isTried && spread == kSpreadsInstead[1] && cost > expected + kBrokenPromise;
-		if (cost <= kPoorCost && !isBroken)
-			continue;
-		isTried = true;
-		Options other = options;
-		other.cones.distortion = spread;
-		auto next = otherMap(component, input, other, "the map before it stays");
+	const auto cost = [&] { return std::min(costOf(map).total(), alternative); };
+	const auto take = [&](std::optional<Parametrization> next) {
 		if (!next)
-			continue;
+			return;
 		const int steps = map.report.iterations + next->report.iterations;
 		if (costOf(*next).total() < costOf(map).total())
-			map = std::move(*next);
+			map = *std::move(next);
 		map.report.iterations = steps;
+	};
+	bool isBroken = expected && cost() > expected->total() + kBrokenPromise;
+	if (isBroken) {
+		const double isometry = expectedEnergy(0.0);
+		const double promised = std::max(kTiny, expected->energy - isometry);
+		const double factor =
+			std::clamp((costOf(map).energy - isometry) / promised, 1.0, kMaxEnergyFactor);
+		double atFactor = expected->total(factor);
+		if (atFactor > expected->total() + kBrokenPromise)
+			take(mapAtFactor(component, input, options, factor, cost(), atFactor));
+		isBroken = cost() > atFactor + kBrokenPromise;
+	}
+	for (const double spread : kSpreadsInstead) {
+		if (cost() <= kPoorCost && !(isBroken && spread == kSpreadsInstead[1]))
+			continue;
+		Options other = options;
+		other.cones.distortion = spread;
+		take(otherMap(component, input, other, "the map before it stays"));
 	}
 	return map;
 }
@@ -268,17 +304,17 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			return chosen(choice, *std::move(unfolded));
 		}
 	}
-	double expected = plan.target.expected ? plan.target.expected->total() : kInfinity;
+	std::optional<MapCost> expected = plan.target.expected;
 	const auto mirror = plan.request.mirror;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
 	if (mirror && isMirrored(map, *mirror)) {
 		// No other map costs less than is expected.
-		if (costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected)
+		if (expected && costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected->total())
 			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
 		else
-			expected = kInfinity; // it costs no more than mirrors may
+			expected.reset(); // it costs no more than mirrors may
 	}
 	unfoldIfPoor(costOf(map).total());
 	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));

@@ -49,8 +49,8 @@ int minConeCount(const LinearFlow& flow, double total)
 	return static_cast<int>(std::ceil(total / kMaxConeCurvature));
 }
 
-ConeModel::ConeModel(LinearFlow& flow, double total) :
-		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
+ConeModel::ConeModel(LinearFlow& flow, double total, double energyFactor) :
+		m_flow(flow), m_total(total), m_energyFactor(energyFactor), m_isCone(flow.vertexCount(), 0)
 {
 	checkpoint();
 	const VertexVector none = VertexVector::Zero(m_flow.vertexCount());

@@ -2,6 +2,7 @@
 #ifndef RICCI_CONE_MODEL_H
 #define RICCI_CONE_MODEL_H
 
+#include "../flow/target.h"
 #include "cone_curvatures.h"
 #include "cone_sites.h"
 #include "linear_flow.h"
@@ -38,7 +39,8 @@ class ConeModel
 public:
 	/// No cones yet.
 	/// \param total 2 pi chi, what the curvatures add up to where their sum is fixed
-	ConeModel(LinearFlow& flow, double total);
+	/// \param energyFactor see TargetRequest
+	ConeModel(LinearFlow& flow, double total, double energyFactor = 1.0);
 
 	int size() const { return m_now.vertices.size(); }
 	Vertex vertex(int i) const { return m_now.vertices[i]; }
@@ -60,6 +62,9 @@ public:
 
 	/// E at the curvatures, rounding kept from making it negative.
 	double energy() const { return m_now.fit.energy; }
+
+	/// What so much of E costs, see MapCost.
+	double priceOf(double energy) const { return m_energyFactor * kEnergyPrice * energy; }
 
 	/// Standard deviation of 2 u by area.
 	double distortion() const { return 2.0 * std::sqrt(energy()); }
@@ -227,7 +232,7 @@ private:
 	void setRow(int i, Vertex v);
 
 	LinearFlow& m_flow;
-	double m_total;
+	double m_total, m_energyFactor;
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;

@@ -23,7 +23,8 @@ constexpr double kSeamAllowance = 1.05;
 
 /// Where the distortion decides how many cones are placed, there are at most this many, or as many as
 /// lower energy and price of seams, if those are more, up to the second number and while there are no
-/// more than so many numbers to keep, one for each cone and vertex. The search takes time in proportion to
+/// more than so many numbers to keep, one for each cone and vertex. For the least cost they are no more than half of the
+/// vertices, either: at nearly all, one does what its neighbours do. The search takes time in proportion to
 /// them, and less is worth while where there is another map: far less beside one that costs no more than kPoorMap. Of
 /// 66 meshes four come out otherwise where it is 5: E 5.57 -> 5.23, 5.57 -> 5.64, 6.03 -> 5.52, 5.31 -> 5.01.
 constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
@@ -69,7 +70,10 @@ int maxCones(const ConeModel& model, const TargetRequest& request)
 	const int numbers = !(request.alternative < kInfinity) ? kMaxConeNumbers
 						: request.alternative > kPoorMap   ? kMaxConeNumbersBesidePoor
 														   : kMaxConeNumbersBeside;
-	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
+	const int most = request.goal() == ConeGoal::LeastCost
+						 ? std::clamp(vertices / 2, kMaxPlacedCones, kMaxNeededCones)
+						 : kMaxNeededCones;
+	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, most);
 }
 
 /// In a search for the objective, cones move first when there are so many, and again whenever there are
@@ -96,7 +100,7 @@ public:
 	/// seams grow as since the last call, when there were about half as many. The first call does not tell.
 	bool mayFallBelow(double alternative)
 	{
-		MapCost cost{4.0 + kEnergyPrice * m_model.energy(), m_tree.length()};
+		MapCost cost{4.0 + m_model.priceOf(m_model.energy()), m_tree.length()};
 		const MapCost last = std::exchange(m_last, cost);
 		const double pace = (cost.energy - 4.0) / (last.energy - 4.0);
 		bool mayFall = !std::isfinite(last.energy);
@@ -134,7 +138,10 @@ public:
 private:
 	static constexpr int kMaxVain = 8, kShareVain = 4, kShareAtOnce = 8;
 
-	double objective() const { return coneCost(m_model.energy(), m_tree.length(), m_model.size()); }
+	double objective() const
+	{
+		return coneCost(m_model.priceOf(m_model.energy()), m_tree.length(), m_model.size());
+	}
 
 	ConeModel& m_model;
 	const ConeSites& m_sites;
@@ -149,11 +156,13 @@ private:
 void placeForObjective(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	Growth growth(request, model, sites);
+	// Where a map has shown what energy costs, cones are known that come near the other map.
+	const double alternative = request.energyFactor > 1.0 ? kInfinity : request.alternative;
 	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
 		if (model.size() >= relocated) {
 			growth.relocate();
 			relocated = 2 * model.size();
-			if (!growth.mayFallBelow(request.alternative))
+			if (!growth.mayFallBelow(alternative))
 				break;
 		}
 	relocateCones(model, sites, 2);
@@ -285,7 +294,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 			sites.emplace(surface, request.coneVertices());
 			checkCount(request, minConeCount(flow, total), *sites);
 			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
-			found.emplace(*coarse, total);
+			found.emplace(*coarse, total, request.energyFactor);
 			coarseSites.emplace(*sites, roots);
 			search(request, *found, *coarseSites);
 		},
@@ -385,7 +394,7 @@ placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest
 	if (isLarge && request.goal() == ConeGoal::LeastCost)
 		return placeOnAggregates(surface, flow, request);
 	const ConeSites sites(surface, request.coneVertices());
-	ConeModel model(flow, surface.topology.type.totalCurvature());
+	ConeModel model(flow, surface.topology.type.totalCurvature(), request.energyFactor);
 	checkCount(request, model.minSize(), sites);
 	if (!isLarge)
 		search(request, model, sites);

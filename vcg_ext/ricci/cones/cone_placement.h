@@ -22,6 +22,8 @@ struct TargetRequest : TargetInput
 	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
 	double alternative = kInfinity;
+	/// By what energy beyond that of an isometry costs more than is expected, see MapCost::total().
+	double energyFactor = 1.0;
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.

@@ -212,7 +212,7 @@ bool dropDearest(ConeModel& model, SeamTree& tree)
 	};
 	std::vector<std::pair<double, int>> most; // of what they fall by, and without which cone
 	for (int i = 0; i < model.size(); ++i)
-		if (const double fall = price(i) - kEnergyPrice * model.need(i); fall > 0.0)
+		if (const double fall = price(i) - model.priceOf(model.need(i)); fall > 0.0)
 			most.emplace_back(-fall, i);
 	std::sort(most.begin(), most.end());
 	Vertex dearest;
@@ -223,7 +223,7 @@ bool dropDearest(ConeModel& model, SeamTree& tree)
 		const Vertex cone = model.vertex(i);
 		double fall = price(i);
 		const bool isOut = model.tryWithout(i, [&] {
-			fall -= kEnergyPrice * (model.energy() - present);
+			fall -= model.priceOf(model.energy() - present);
 			return fall > best && fall >= others;
 		});
 		if (fall > best) {
@@ -267,7 +267,7 @@ bool moveNearby(
 		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
 		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
 		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
-		const double change = coneCost(rise, tree.distance(v) - own, 0);
+		const double change = coneCost(model.priceOf(rise), tree.distance(v) - own, 0);
 		if (change < -kMinObjectiveGain && present + rise <= maxEnergy)
 			places.emplace_back(change, v);
 	}
@@ -279,7 +279,7 @@ bool moveNearby(
 		best.push_back(place->second);
 	return model.tryMove(i, best, [&](Vertex v, double energy) {
 		const double saved = kSeamPrice * (own - tree.distance(v)) - kMinObjectiveGain;
-		return energy <= std::min(maxEnergy, present + saved / kEnergyPrice);
+		return energy <= std::min(maxEnergy, present + saved / model.priceOf(1.0));
 	});
 }
 

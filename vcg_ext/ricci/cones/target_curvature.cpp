@@ -280,7 +280,8 @@ void choosePlainOrCones(
 		cones.reset();
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
-	const double costWithout = plain.total(), cost = cones ? cones->expectation().total() : 0.0;
+	const double costWithout = plain.total(request.energyFactor);
+	const double cost = cones ? cones->expectation().total(request.energyFactor) : 0.0;
 	if (cones && (goesBySpread || cost < costWithout)) {
 		// They may leave more to a short boundary than it can take.
 		std::optional<Target> admissible = attempt("no cones are placed", [&] {

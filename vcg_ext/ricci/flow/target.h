@@ -41,6 +41,13 @@ struct MapCost
 
 	/// The objective.
 	double total() const { return energy + kSeamPrice * seams; }
+
+	/// The objective that is to be expected of a map on whose mesh energy beyond that of an isometry is \p energyFactor
+	/// times what the metric has: straight triangles bend where thin ones were flipped.
+	double total(double energyFactor) const
+	{
+		return total() + (energyFactor - 1.0) * (energy - 4.0);
+	}
 };
 
 /// The energy of a map: at the scale s it is s^2 \p forth + \p back / s^2 over \p area.
@@ -59,11 +66,11 @@ inline double expectedEnergy(double spread)
 }
 
 /// What \p cones cost beyond the energy of an isometry.
-/// \param meanSquare of u
+/// \param energy beyond it
 /// \param seams see MapCost
-inline double coneCost(double meanSquare, double seams, int cones)
+inline double coneCost(double energy, double seams, int cones)
 {
-	return kEnergyPrice * meanSquare + kSeamPrice * seams + kConePrice * cones;
+	return energy + kSeamPrice * seams + kConePrice * cones;
 }
 
 /// A target curvature that Gauss-Bonnet allows.
