@@ -33,13 +33,12 @@ Crew::~Crew()
 		thread.join();
 }
 
-/// As many that no other offer waits for.
-void Crew::startThreads(int helpers)
+/// As many as offers wait for, but at most as one caller asks for, and one more for each that waits: more would
+/// outnumber the processors where loops are within others.
+void Crew::startThreads()
 {
 	try {
-		// No more than one caller asks for: those of loops within others would outnumber the processors.
-		m_threads.reserve(static_cast<std::size_t>(helpers));
-		while (m_idle < m_wanted && m_threads.size() < static_cast<std::size_t>(helpers)) {
+		while (m_idle < m_wanted && static_cast<int>(m_threads.size()) < m_most + m_waiting) {
 			m_threads.emplace_back([this] { work(); });
 			++m_idle;
 		}
@@ -96,7 +95,8 @@ void Crew::Offer::begin(int helpers)
 		m_before = m_crew->m_last;
 		(m_before ? m_before->m_after : m_crew->m_first) = this;
 		m_crew->m_last = this;
-		m_crew->startThreads(helpers);
+		m_crew->m_most = std::max(m_crew->m_most, helpers);
+		m_crew->startThreads();
 	}
 	for (int i = 0; i < helpers; ++i)
 		m_crew->m_isOffered.notify_one();
@@ -109,17 +109,22 @@ bool Crew::Offer::end(std::chrono::milliseconds wait)
 	std::unique_lock<std::mutex> lock(m_crew->m_mutex);
 	m_crew->m_wanted -= m_wanted;
 	m_wanted = 0;
-	return m_crew->m_isDone.wait_for(lock, wait, [&] { return m_atWork == 0; });
+	if (m_atWork > 0) {
+		++m_crew->m_waiting;
+		m_crew->startThreads();
+		m_crew->m_isDone.wait_for(lock, wait, [&] { return m_atWork == 0; });
+		--m_crew->m_waiting;
+	}
+	return m_atWork == 0;
 }
 
 Crew::Offer::~Offer()
 {
 	if (!m_crew)
 		return;
-	std::unique_lock<std::mutex> lock(m_crew->m_mutex);
-	m_crew->m_wanted -= m_wanted;
-	m_wanted = 0;
-	m_crew->m_isDone.wait(lock, [&] { return m_atWork == 0; });
+	while (!end(std::chrono::hours(1))) {
+	}
+	const std::lock_guard<std::mutex> lock(m_crew->m_mutex);
 	(m_before ? m_before->m_after : m_crew->m_first) = m_after;
 	(m_after ? m_after->m_before : m_crew->m_last) = m_before;
 }

@@ -56,7 +56,7 @@ public:
 	};
 
 private:
-	void startThreads(int helpers);
+	void startThreads();
 	void work();
 	Offer* firstOpen() const;
 
@@ -65,8 +65,10 @@ private:
 	std::condition_variable m_isOffered, m_isDone;
 	std::vector<std::thread> m_threads;
 	Offer *m_first = nullptr, *m_last = nullptr;
-	int m_idle = 0;   // threads
-	int m_wanted = 0; // by all offers
+	int m_idle = 0;    // threads
+	int m_wanted = 0;  // by all offers
+	int m_most = 0;    // that one offer wanted
+	int m_waiting = 0; // callers, for others that help them
 	bool m_isEnding = false;
 };
 
