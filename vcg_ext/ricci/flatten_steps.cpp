@@ -227,6 +227,7 @@ Parametrization withoutMap(
 			part.placedCones.push_back(v.number());
 	part.notes = std::move(log.notes);
 	part.charts.emplace_back();
+	part.charts.back().isMirrored = cut.isMirrored;
 
 	const SurfaceType& type = domain.surface.topology.type;
 	Report& report = part.report;

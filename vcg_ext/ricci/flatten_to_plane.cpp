@@ -368,12 +368,8 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 			periods = measurePeriods(domain.surface.topology.type, flow);
 			requireMetric(flow, domain.solved().topology.boundary);
 		});
-	finish(
-		domain,
-		options,
-		flow.target,
-		cut.cones,
-		map); // by itself: it takes as much memory as the periods
+	// Not beside the periods, which take as much memory.
+	finish(domain, options, flow.target, cut.cones, map);
 	const bool mayFlip = map.finished.moved > 0 || isBent(flow, log, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
 	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);

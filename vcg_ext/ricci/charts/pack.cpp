@@ -220,7 +220,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
 		best;
 	double most = worth(map);
-	double loss = 0.0; // prices of the vain cuts together
+	double loss = 0.0, surcharge = 0.0; // of the vain cuts together
 	bool isEnded = false;
 	for (int cuts = 0, vain = 0; loss < kMaxLoss; ++cuts) {
 		if (!best && map.report.occupancy > kEnoughCovered)
@@ -231,6 +231,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 			break;
 		if (!best)
 			best.emplace(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report);
+		const bool isMirrored = map.charts[positionOf(cut->chart)].isMirrored;
 		cutChart(*cut, turns == ChartTurns::Free, map);
 		const double margin = map.report.margin;
 		packIntoSquare(map, options, turns);
@@ -239,12 +240,14 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		++vain;
 		const double reached = worth(map);
 		const double seams = std::sqrt(area) + map.report.seamLength;
-		loss += kPackingPrice * std::log(seams / (seams - cut->length));
-		if (reached > most + vain * kMinRoom) {
+		const double longer = std::log(seams / (seams - cut->length));
+		loss += kPackingPrice * longer;
+		surcharge += isMirrored ? kMirroredSurcharge * longer : 0.0;
+		if (reached > most + vain * kMinRoom + surcharge) {
 			best.reset();
 			most = reached;
 			vain = 0;
-			loss = 0.0;
+			loss = surcharge = 0.0;
 		}
 	}
 	if (best)

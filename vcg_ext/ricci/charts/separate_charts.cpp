@@ -203,15 +203,17 @@ acrossRectangle(const FlatMesh& mesh, const std::vector<int>& triangles, const O
 /// \return the numbers of the pieces, which need points of their own, and settle()
 std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 {
+	Chart unplaced;
+	unplaced.isMirrored = map.charts[positionOf(number)].isMirrored;
+	map.charts[positionOf(number)] = unplaced;
 	std::vector<int> charts;
 	for (const std::vector<int>& piece : pieces) {
 		charts.push_back(charts.empty() ? number : static_cast<int>(map.charts.size()));
 		if (charts.size() > 1)
-			map.charts.emplace_back();
+			map.charts.push_back(unplaced);
 		for (const int i : piece)
 			map.mesh.chart[i] = charts.back();
 	}
-	map.charts[positionOf(number)] = {};
 	return charts;
 }
 
@@ -268,6 +270,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 				i = triangles[positionOf(i)];
 			divided.push_back(static_cast<int>(charts.size()));
 			add(part, {});
+			charts.back().isMirrored = map.charts[c].isMirrored;
 		}
 	}
 	map.charts = std::move(charts);

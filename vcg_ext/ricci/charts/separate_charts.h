@@ -33,6 +33,9 @@ void joinCharts(Parametrization& map);
 /// log(occupancy) - kPackingPrice log(sqrt(area) + seams), up to a constant.
 constexpr double kPackingPrice = 0.7;
 
+/// What a cut costs besides that divides one half of mirrored seams alone.
+constexpr double kMirroredSurcharge = 1.6;
+
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 

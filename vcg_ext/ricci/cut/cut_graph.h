@@ -25,6 +25,8 @@ struct CutGraph
 
 	int edgeCount = 0;   ///< edges with isCut 1
 	double length = 0.0; ///< sum of their costs
+
+	bool isMirrored = false; ///< made by mirroredCut()
 };
 
 /// Finds a short cut graph by a tree and a cotree (greedy system of loops

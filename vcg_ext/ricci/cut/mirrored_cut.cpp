@@ -190,6 +190,7 @@ std::optional<CutGraph> mirroredCut(
 		if (isCut.empty())
 			return;
 		CutGraph cut = cutGraphOf(t, cost, cones, std::move(isCut));
+		cut.isMirrored = true;
 		if (!best || cut.length < (1.0 - kTiny) * best->length)
 			best = std::move(cut);
 	};

@@ -66,6 +66,9 @@ struct Chart
 	/// the group, and what takes its disk to that of the part. -1: itself.
 	int middle = -1;
 	ExtendedIsometry place;
+
+	/// Of a surface whose seams mirror each other, which cuts for packing do not (kMirroredSurcharge).
+	bool isMirrored = false;
 };
 
 /// A map of the whole mesh to the plane. Vertices and faces have the numbers of the opened mesh (see
