@@ -222,7 +222,7 @@ part_threads() {
 	for test in base/parallel_test numerics/one_thread_test; do
 		program=$folder/${test##*/}
 		c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/$test.cpp" \
-			"$root"/vcg_ext/ricci/base/{task,error}.cpp \
+			"$root"/vcg_ext/ricci/base/{task,error,crew}.cpp \
 			-lgtest_main -lgtest -lpthread -o "$program"
 		limited 20 "$program" --gtest_brief=1 || return 1
 	done

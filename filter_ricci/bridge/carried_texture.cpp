@@ -321,6 +321,7 @@ void CarriedTexture::draw(const ricci::Parametrization& result, Results& results
 		drawSamples<unsigned short>();
 	else
 		drawSamples<unsigned char>();
+	ricci::advance(1.0, "Drawing the texture");
 	describe(results);
 	if (result.report.overlappingCharts > 0)
 		ricci::logLine("Texture: where charts overlap, it shows only one of the faces.");

@@ -44,8 +44,8 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 	Add the mesh laid out in the plane, cut along its seams, or mapped conformally to the unit sphere (closed surfaces of
 	genus 0).
 + charts = Without overlap, cut for packing | Charts | As the flow has them; Without overlap; Without overlap, cut for packing; As they are, only packed
-	Leave charts whole, split those that overlap, or with <b>Automatic</b> also for better packing. <b>Only packed</b>: the
-	old islands keep their shape.
+	Leave charts whole, split those that overlap, or for <b>Automatic</b> without chosen seams also for better packing.
+	<b>Only packed</b>: the old islands keep their shape.
 + normalize_uv = true | Fit into the unit square | bool
 	Scale the UVs uniformly into [0,1] x [0,1]. Off: the same charts in the real size of the mesh.
 + holes = Short ones capped | Holes | Boundaries; Capped; Short ones capped

@@ -371,6 +371,18 @@ TEST(Packing, CutsChartsForPackingWhereThatWins)
 	}
 }
 
+/// Whoever chooses seams gets no further ones for the sake of packing.
+TEST(Packing, CutsNothingForPackingWhereSeamsAreChosen)
+{
+	SurfaceMesh strip = rectangle(20, 2, 20, 2);
+	strip.seam.assign(strip.triangles.size(), {0, 0, 0});
+	strip.seam[at(17)] = {1, 1, 1};
+	const Parametrization map = cutForPacking(strip, 0.01);
+	EXPECT_GE(map.report.chosenSeamEdges, 2);
+	EXPECT_EQ(map.report.overlapCuts, 0);
+	EXPECT_EQ(map.report.seamLength, 0.0);
+}
+
 /// In the mesh's own size there are the same charts with the same seams, in the same square: of several all is larger by
 /// one factor, and a single one is only turned.
 TEST(Packing, KeepsTheChartsInTheSizeOfTheMesh)

@@ -415,16 +415,11 @@ class Texture(textures.TexturedTorus):
 
     def test_shattered_atlas(self):
         self.write("old.png")
-        processors = os.sched_getaffinity(0)
-        os.sched_setaffinity(0, {min(processors)})  # threads that help tell of no steps
-        try:
-            code, text = self.carry()
-        finally:
-            os.sched_setaffinity(0, processors)
+        code, text = self.carry()
         self.assertEqual(code, 0, text)
         self.check()
         self.assertGreater(float(server.results(text)["texture_scale"]), 0.3)
-        # How often depends on the clock: the plugin tells of a step every 50 ms at most.
+        # How often depends on which thread draws what.
         for step in ("Drawing the texture", "Writing the texture"):
             self.assertRegex(text, f"(?m)^{step}$")
         self.assertRegex(text, r"Texture: .*mesh/new\.png, 300 x 300 texels, from 1 image\.")

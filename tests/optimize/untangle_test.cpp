@@ -47,7 +47,7 @@ struct Whole
 
 	Untangled solvedBy(decltype(untangle)& solve, int maxSteps = kMaxSteps) const
 	{
-		return solve(flat, groups, {RestShapes::OfSurfaceEvenly, kValid}, patch, maxSteps);
+		return solve({flat, groups, {RestShapes::OfSurfaceEvenly, kValid}}, patch, maxSteps);
 	}
 
 	/// The drawing with the patch's points at \p places.

@@ -64,7 +64,7 @@ enum class Charts {
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
 	///< that do not; the others stay as they are, and so do disks and rectangles
 	CutForPacking, ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
-	///< the seam, see packWithCuts(), unless the mesh has a map. A cut counts as one of an overlap
+	///< the seam, see packWithCuts(), unless the mesh has a map or chosen seams. A cut counts as one of an overlap
 	AsGiven ///< there is no flow: those of the map that the mesh has (SurfaceMesh::map) keep their shapes, and are
 			///< only turned and packed, all scaled by one factor
 };

@@ -220,8 +220,9 @@ void pack(const Options& options, WholeMap& whole)
 	const ChartTurns turns = chartTurns(options);
 	const bool cutsForTiles = options.tileSide > 0.0 && mayCutCharts(options);
 	const bool mayCut =
-		cutsForTiles || (options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
-						 options.target == TargetCurvature::Automatic);
+		cutsForTiles ||
+		(options.charts == Charts::CutForPacking && whole.opened.mesh.map.empty() &&
+		 whole.opened.seamEdges == 0 && options.target == TargetCurvature::Automatic);
 	packCharts(map, options, turns, mayCut);
 	advance(kMapped, "Finishing the coordinates");
 	if (!isFinished(options))

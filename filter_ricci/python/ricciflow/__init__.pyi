@@ -520,8 +520,8 @@ def flatten(
         new UVs. Empty: no texture.
     layers: Add the mesh laid out in the plane, cut along its seams, or mapped conformally to
         the unit sphere (closed surfaces of genus 0).
-    charts: Leave charts whole, split those that overlap, or with Automatic also for better
-        packing. Only packed: the old islands keep their shape.
+    charts: Leave charts whole, split those that overlap, or for Automatic without chosen seams
+        also for better packing. Only packed: the old islands keep their shape.
     normalize_uv: Scale the UVs uniformly into [0,1] x [0,1]. Off: the same charts in the real
         size of the mesh.
     holes: Fill holes while solving, so that no seam runs to them: all boundary loops but the

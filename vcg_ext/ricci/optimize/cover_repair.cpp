@@ -81,7 +81,8 @@ private:
 			return;
 		const int maxSteps = static_cast<int>(std::clamp(
 			work / size, std::int64_t(0), std::int64_t(std::numeric_limits<int>::max())));
-		const Untangled found = untangle(patch.flat, patch.groups, m_rules, patch.whole, maxSteps);
+		const Untangled found =
+			untangle({patch.flat, patch.groups, m_rules}, patch.whole, maxSteps);
 		work -= found.steps * size;
 		if (found.points.empty())
 			return;

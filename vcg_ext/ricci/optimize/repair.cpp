@@ -42,15 +42,13 @@ constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 class Untangler
 {
 public:
-	Untangler(
-		const FlatMesh& flat,
-		const PointGroups& groups,
-		const RepairRules& rules,
-		const Patch& patch,
-		int maxSteps) :
-			m_flat(flat),
-			m_groups(groups), m_validity(rules.validity), m_patch(patch), m_maxSteps(maxSteps),
-			m_energy(flat, groups, patch, restShapes(flat, patch, rules.shapes, rules.validity)),
+	Untangler(const PatchProblem& p, const Patch& patch, int maxSteps) :
+			m_flat(p.flat), m_groups(p.groups), m_validity(p.rules.validity), m_patch(patch),
+			m_maxSteps(maxSteps), m_energy(
+									  p.flat,
+									  p.groups,
+									  patch,
+									  restShapes(p.flat, patch, p.rules.shapes, p.rules.validity)),
 			m_x(Eigen::VectorXd::Zero(m_energy.size()))
 	{
 	}
@@ -197,24 +195,14 @@ private:
 
 } // namespace
 
-Untangled untangle(
-	const FlatMesh& flat,
-	const PointGroups& groups,
-	const RepairRules& rules,
-	const Patch& patch,
-	int maxSteps)
+Untangled untangle(const PatchProblem& problem, const Patch& patch, int maxSteps)
 {
-	return Untangler(flat, groups, rules, patch, maxSteps).run();
+	return Untangler(problem, patch, maxSteps).run();
 }
 
-Untangled ease(
-	const FlatMesh& flat,
-	const PointGroups& groups,
-	const RepairRules& rules,
-	const Patch& patch,
-	int maxSteps)
+Untangled ease(const PatchProblem& problem, const Patch& patch, int maxSteps)
 {
-	return Untangler(flat, groups, rules, patch, maxSteps).ease();
+	return Untangler(problem, patch, maxSteps).ease();
 }
 
 namespace {
@@ -308,9 +296,7 @@ bool apply(FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const
 /// \param work what is left after it
 /// \return [patch] what \p solve gives
 std::vector<Untangled> solveAll(
-	const FlatMesh& flat,
-	const PointGroups& groups,
-	const RepairRules& rules,
+	const PatchProblem& problem,
 	decltype(untangle)& solve,
 	std::vector<Patch>& patches,
 	std::int64_t& work)
@@ -332,7 +318,7 @@ std::vector<Untangled> solveAll(
 		static_cast<int>(std::min(work / ofStep, std::int64_t(std::numeric_limits<int>::max())));
 	tasksInParallel(
 		static_cast<int>(patches.size()), threadsFor(kExpectedSteps * triangles), [&](int i) {
-			found[positionOf(i)] = solve(flat, groups, rules, patches[positionOf(i)], maxSteps);
+			found[positionOf(i)] = solve(problem, patches[positionOf(i)], maxSteps);
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
 		work -= found[i].steps * workOfStep(patches[i]);
@@ -391,7 +377,7 @@ void easeStrained(
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
-		const std::vector<Untangled> found = solveAll(flat, groups, rules, ease, patches, work);
+		const std::vector<Untangled> found = solveAll({flat, groups, rules}, ease, patches, work);
 		takeOver(patches, found, rules, flat, result);
 	}
 	limit.spend(before - work);
@@ -448,7 +434,8 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		const std::vector<Untangled> found = solveAll(flat, groups, rules, untangle, patches, work);
+		const std::vector<Untangled> found =
+			solveAll({flat, groups, rules}, untangle, patches, work);
 		takeOver(patches, found, rules, flat, result);
 		for (const Patch& patch : patches)
 			for (const int f : patch.triangles)

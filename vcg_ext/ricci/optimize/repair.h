@@ -29,6 +29,14 @@ struct RepairRules
 	BoundaryRepair boundary = BoundaryRepair::Free;
 };
 
+/// What the patches of a map are solved with.
+struct PatchProblem
+{
+	const FlatMesh& flat;
+	const PointGroups& groups;
+	const RepairRules& rules;
+};
+
 /// What untangle() found.
 struct Untangled
 {
@@ -47,20 +55,10 @@ struct Untangled
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
 /// \param maxSteps of Newton in all; then the search is over
-Untangled untangle(
-	const FlatMesh& flat,
-	const PointGroups& groups,
-	const RepairRules& rules,
-	const Patch& patch,
-	int maxSteps);
+Untangled untangle(const PatchProblem& problem, const Patch& patch, int maxSteps);
 
 /// Lowers the same energy, with eps = 0, on a patch that is valid, which it stays.
-Untangled ease(
-	const FlatMesh& flat,
-	const PointGroups& groups,
-	const RepairRules& rules,
-	const Patch& patch,
-	int maxSteps);
+Untangled ease(const PatchProblem& problem, const Patch& patch, int maxSteps);
 
 /// What repair() has done.
 struct Repair
