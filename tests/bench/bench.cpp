@@ -216,19 +216,22 @@ struct Row
 
 /// The automatic target, and uniform curvature where a closed surface has none.
 TargetRequest
-chooseRequest(const EmbeddedSurface& surface, const TargetOptions& options, std::string& name)
+chooseRequest(const EmbeddedSurface& surface, const Options& options, std::string& name)
 {
 	const SurfaceType& type = surface.topology.type;
 	const int vertexCount = surface.triangulation.vertexCount();
 	TargetRequest request;
-	request.options = options;
+	request.target = options.target;
+	request.goal = coneGoal(options.cones);
+	request.rounding = options.cones.rounding;
+	request.freeBoundary = options.freeBoundary;
 	request.selected.assign(vertexCount, 0);
 	request.prescribed.assign(vertexCount, 0.0);
 	name = "automatic";
 	if (!type.isClosed() || type.isTorus())
 		return request;
 	name = "uniform";
-	request.options.target = TargetCurvature::Prescribed;
+	request.target = TargetCurvature::Prescribed;
 	request.prescribedPrecision = 1e-12;
 	request.prescribed.assign(
 		vertexCount, 2 * kPi * type.eulerCharacteristic() / static_cast<double>(vertexCount));

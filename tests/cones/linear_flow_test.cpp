@@ -96,9 +96,9 @@ struct AtTheEnd : Linearised
 	explicit AtTheEnd(const LinearCase& c) : Linearised(c), boundary(c.boundary)
 	{
 		TargetRequest request;
-		request.options.target = TargetCurvature::PlacedCones;
-		request.options.freeBoundary = boundary == ConeBoundary::Fixed;
-		request.options.cones.count = 5;
+		request.target = TargetCurvature::PlacedCones;
+		request.freeBoundary = boundary == ConeBoundary::Fixed;
+		request.goal = {ConeGoal::Count, 5};
 		reached = to(chooseTarget(surface, start, request));
 	}
 

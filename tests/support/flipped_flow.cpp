@@ -130,8 +130,8 @@ SurfaceLayout FlippedFlow::refinement(const CutGraph& cutGraph) const
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)
 {
 	TargetRequest request;
-	request.options.target = mode;
-	request.options.freeBoundary = freeBoundary;
+	request.target = mode;
+	request.freeBoundary = freeBoundary;
 	return request;
 }
 

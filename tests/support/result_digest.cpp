@@ -117,6 +117,8 @@ const std::vector<Case> kCases = {
 	{"default", [](Flow::Params&) {}},
 	{"refined", [](Flow::Params& p) { p.output = OutputTriangulation::CommonRefinement; }},
 	{"placed", [](Flow::Params& p) { p.target = TargetCurvature::PlacedCones; }},
+	{"counted", [](Flow::Params& p) { p.cones.count = 9; }},
+	{"spread", [](Flow::Params& p) { p.cones.distortion = 0.2; }},
 	{"quarter",
 	 [](Flow::Params& p) {
 		 p.target = TargetCurvature::PlacedCones;

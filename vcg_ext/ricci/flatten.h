@@ -26,9 +26,8 @@ struct FlowPlan
 FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options);
 
 /// Chooses the target.
-/// \param alternative see TargetRequest
 /// \throw as chooseTarget()
-void completePlan(const Options& options, double alternative, FlowPlan& plan);
+void completePlan(const Options& options, FlowPlan& plan);
 
 /// One component in the plane: flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the result
 /// by other formulas.

@@ -42,11 +42,10 @@ constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 /// Whether cones and seams are to be mirrored: where they are chosen for the least cost alone, which tells what that costs.
 bool mayMirror(const Component& component, const TargetRequest& request)
 {
-	const TargetOptions& options = request.options;
-	return request.measuresAreas && request.goal() == ConeGoal::LeastCost &&
-		   options.cones.rounding == ConeRounding::Free &&
-		   (options.target == TargetCurvature::Automatic ||
-			options.target == TargetCurvature::PlacedCones) &&
+	return request.measuresAreas && request.goal.kind == ConeGoal::LeastCost &&
+		   request.rounding == ConeRounding::Free &&
+		   (request.target == TargetCurvature::Automatic ||
+			request.target == TargetCurvature::PlacedCones) &&
 		   component.lengths.empty() && !component.hasSeam;
 }
 
@@ -60,13 +59,17 @@ TargetRequest targetRequest(
 	TargetRequest request;
 	static_cast<TargetInput&>(request) =
 		targetInput(component, input, domain.solved().positions.size());
-	request.options = options;
+	request.target = options.target;
+	request.goal = coneGoal(options.cones);
+	request.rounding = options.cones.rounding;
+	request.freeBoundary = options.freeBoundary;
+	request.onlyWhereNeeded = options.cones.onlyWhereNeeded;
 	request.measuresAreas =
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
 	if (mayMirror(component, request))
-		request.mirror = findMirror(domain.surface, domain.onHole);
+		request.goal.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }
 
@@ -78,7 +81,7 @@ CutGraph cutOpen(const FlowPlan& plan, VertexArray<char> cones, const Options& o
 		plan.domain,
 		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
 		std::move(cones),
-		plan.request.mirror.get());
+		plan.request.goal.mirror.get());
 }
 
 /// The flow with edge swaps (5.4), and the domain that it leaves.
@@ -137,7 +140,7 @@ FlowResult keepAreas(
 			last = std::make_unique<const FlowResult>(std::move(next));
 		return isBest;
 	};
-	const bool isForCost = request.goal() == ConeGoal::LeastCost;
+	const bool isForCost = request.goal.kind == ConeGoal::LeastCost;
 	const int round = improve(isForCost ? 1 : kMaxRounds, kMaxVainRounds, propose, take);
 	if (!isForCost && round == kMaxRounds) {
 		++log.endedEarly;
@@ -324,9 +327,8 @@ FlowPlan startOfPlan(const Component& component, const VertexInput& input, const
 	return plan;
 }
 
-void completePlan(const Options& options, double alternative, FlowPlan& plan)
+void completePlan(const Options& options, FlowPlan& plan)
 {
-	plan.request.alternative = alternative;
 	if (options.method == Method::EdgeSwaps)
 		return;
 	advance(0.0, "Choosing the target");
@@ -391,7 +393,7 @@ Parametrization
 flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	FlowPlan plan = startOfPlan(component, input, options);
-	completePlan(options, kInfinity, plan);
+	completePlan(options, plan);
 	return flattenToPlane(component, std::move(plan), options);
 }
 

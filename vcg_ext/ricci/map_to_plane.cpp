@@ -40,7 +40,7 @@ constexpr double kMinShareOfHoles = 0.25;
 bool needsNoFlow(const Options& options)
 {
 	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
-		   goalOf(options.cones) == ConeGoal::LeastCost &&
+		   coneGoal(options.cones).kind == ConeGoal::LeastCost &&
 		   options.cones.rounding == ConeRounding::Free && isFinished(options) &&
 		   options.charts != Charts::OfTheFlow;
 }
@@ -79,15 +79,21 @@ Parametrization chosen(const std::string& choice, Parametrization map)
 }
 
 /// The map of a flow with other cones, without overlap.
+/// \param ask changes the TargetRequest
 /// \return none where it fails, which is told with \p otherwise
+template<class Ask>
 std::optional<Parametrization> otherMap(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	const std::string& otherwise)
+	const std::string& otherwise,
+	const Ask& ask)
 {
 	return attempt(otherwise, [&] {
-		Parametrization map = flattenToPlane(component, input, options);
+		FlowPlan plan = startOfPlan(component, input, options);
+		ask(plan.request);
+		completePlan(options, plan);
+		Parametrization map = flattenToPlane(component, std::move(plan), options);
 		separateCharts(options, map);
 		return map;
 	});
@@ -108,7 +114,8 @@ std::optional<Parametrization> mapAtFactor(
 	auto map = attempt("the map before it stays", [&]() -> std::optional<Parametrization> {
 		FlowPlan plan = startOfPlan(component, input, options);
 		plan.request.energyFactor = energyFactor;
-		completePlan(options, alternative, plan);
+		plan.request.alternative = alternative;
+		completePlan(options, plan);
 		expected = plan.target.expected ? plan.target.expected->total(energyFactor) : kInfinity;
 		if (!(expected < alternative))
 			return std::nullopt;
@@ -130,9 +137,6 @@ Parametrization withOtherCones(
 	double alternative,
 	Parametrization map)
 {
-	if (map.report.targetUsed != TargetUsed::PlacedCones ||
-		goalOf(options.cones) != ConeGoal::LeastCost)
-		return map;
 	const auto cost = [&] { return std::min(costOf(map).total(), alternative); };
 	const auto take = [&](std::optional<Parametrization> next) {
 		if (!next)
@@ -156,9 +160,10 @@ Parametrization withOtherCones(
 	for (const double spread : kSpreadsInstead) {
 		if (cost() <= kPoorCost && !(isBroken && spread == kSpreadsInstead[1]))
 			continue;
-		Options other = options;
-		other.cones.distortion = spread;
-		take(otherMap(component, input, other, "the map before it stays"));
+		take(otherMap(
+			component, input, options, "the map before it stays", [&](TargetRequest& request) {
+				request.goal = {ConeGoal::Spread, 0, spread};
+			}));
 	}
 	return map;
 }
@@ -182,14 +187,11 @@ Parametrization mirroredOrNot(
 	double alternative,
 	Parametrization map)
 {
-	auto other = attempt("the mirrored map stays", [&] {
-		FlowPlan plan = startOfPlan(component, input, options);
-		plan.request.mirror = nullptr;
-		completePlan(options, alternative, plan);
-		Parametrization plain = flattenToPlane(component, std::move(plan), options);
-		separateCharts(options, plain);
-		return plain;
-	});
+	auto other =
+		otherMap(component, input, options, "the mirrored map stays", [&](TargetRequest& request) {
+			request.goal.mirror = nullptr;
+			request.alternative = alternative;
+		});
 	if (!other)
 		return map;
 	const int steps = map.report.iterations + other->report.iterations;
@@ -217,7 +219,8 @@ FlowPlan withCheaperHoles(
 		Options other = options;
 		other.holes = Holes::Capped;
 		FlowPlan next = startOfPlan(component, input, other);
-		completePlan(other, std::min(cost, plan.request.alternative), next);
+		next.request.alternative = std::min(cost, plan.request.alternative);
+		completePlan(other, next);
 		return next;
 	});
 	return capped && capped->target.expected && capped->target.expected->total() < cost
@@ -234,7 +237,8 @@ Parametrization givenOrFlow(
 {
 	Options plain = options;
 	plain.cones.onlyWhereNeeded = true;
-	auto map = otherMap(component, input, plain, "the existing map stays");
+	auto map =
+		otherMap(component, input, plain, "the existing map stays", [](const TargetRequest&) {});
 	const std::string own = "the existing map: " + costText(given);
 	if (!map)
 		return chosen(own, std::move(given));
@@ -292,7 +296,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			unfolded = unfold(component, options, 1.0);
 	};
 
-	completePlan(options, keepsMesh ? totalOf(unfolded) : kInfinity, plan);
+	if (keepsMesh)
+		plan.request.alternative = totalOf(unfolded);
+	completePlan(options, plan);
 	plan = withCheaperHoles(component, input, options, std::move(plan));
 	if (plan.target.expected && keepsMesh) {
 		const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
@@ -305,11 +311,11 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		}
 	}
 	std::optional<MapCost> expected = plan.target.expected;
-	const auto mirror = plan.request.mirror;
+	const ConeGoal goal = plan.request.goal;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	if (mirror && isMirrored(map, *mirror)) {
+	if (goal.mirror && isMirrored(map, *goal.mirror)) {
 		// No other map costs less than is expected.
 		if (expected && costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected->total())
 			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
@@ -317,7 +323,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			expected.reset(); // it costs no more than mirrors may
 	}
 	unfoldIfPoor(costOf(map).total());
-	map = withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
+	if (goal.kind == ConeGoal::LeastCost && map.report.targetUsed == TargetUsed::PlacedCones)
+		map =
+			withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
 	if (!unfolded)
 		return map;
 	const std::string whole = "as a whole: " + costText(map);

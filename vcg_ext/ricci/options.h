@@ -141,16 +141,6 @@ struct ConeOptions
 	bool onlyWhereNeeded = false;
 };
 
-/// What cones are placed for.
-enum class ConeGoal { LeastCost, Count, Spread };
-
-inline ConeGoal goalOf(const ConeOptions& options)
-{
-	return options.count > 0          ? ConeGoal::Count
-		   : options.distortion > 0.0 ? ConeGoal::Spread
-									  : ConeGoal::LeastCost;
-}
-
 /// The widest margin that charts are packed with.
 constexpr double kMaxChartMargin = 0.25;
 
@@ -195,8 +185,8 @@ struct PackOptions
 	double tileSide = 0.0;
 };
 
-/// What the target of the Euclidean flow is chosen by.
-struct TargetOptions
+/// Options of the Euclidean flow.
+struct Options : FlowOptions, PackOptions
 {
 	TargetCurvature target = TargetCurvature::Automatic;
 	ConeOptions cones;
@@ -205,11 +195,7 @@ struct TargetOptions
 	/// prescribed curvature then holds at interior vertices only. Disk, Rectangle and the flat
 	/// annulus prescribe the boundary and ignore this.
 	bool freeBoundary = true;
-};
 
-/// Options of the Euclidean flow.
-struct Options : FlowOptions, TargetOptions, PackOptions
-{
 	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
 	double seamHiding = 0.0;
 

@@ -44,8 +44,8 @@ constexpr int kMaxFitSteps = 20;
 
 void checkCount(const TargetRequest& request, int least, const ConeSites& sites)
 {
-	const int count = request.options.cones.count, wanted = std::max(count, least);
-	if (request.goal() == ConeGoal::Count && count < least)
+	const int count = request.goal.count, wanted = std::max(count, least);
+	if (request.goal.kind == ConeGoal::Count && count < least)
 		throw InvalidOption(InvalidOption::TooFewCones, count, least);
 	if (wanted > sites.count())
 		throw InvalidOption(
@@ -53,13 +53,12 @@ void checkCount(const TargetRequest& request, int least, const ConeSites& sites)
 }
 
 /// Adds cones up to the number that is asked for.
-void placeCount(const ConeOptions& wanted, ConeModel& model, const ConeSites& sites)
+void placeCount(int count, ConeModel& model, const ConeSites& sites)
 {
-	while (model.size() < wanted.count &&
-		   addCones(model, sites, std::min(wanted.count - model.size(), 1 + model.size() / 8))) {
+	while (model.size() < count &&
+		   addCones(model, sites, std::min(count - model.size(), 1 + model.size() / 8))) {
 	}
 	relocateCones(model, sites);
-	model.setRounding(wanted.rounding);
 }
 
 /// How many cones \p model can work with.
@@ -70,7 +69,7 @@ int maxCones(const ConeModel& model, const TargetRequest& request)
 	const int numbers = !(request.alternative < kInfinity) ? kMaxConeNumbers
 						: request.alternative > kPoorMap   ? kMaxConeNumbersBesidePoor
 														   : kMaxConeNumbersBeside;
-	const int most = request.goal() == ConeGoal::LeastCost
+	const int most = request.goal.kind == ConeGoal::LeastCost
 						 ? std::clamp(vertices / 2, kMaxPlacedCones, kMaxNeededCones)
 						 : kMaxNeededCones;
 	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, most);
@@ -174,21 +173,20 @@ void placeForObjective(const TargetRequest& request, ConeModel& model, const Con
 	}
 }
 
-/// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
+/// Adds cones until they reach the spread. Free curvatures show where to put them; the rounded
 /// ones have to reach it.
-void addForDistortion(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
+void addForSpread(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	const ConeOptions& wanted = request.options.cones;
-	model.setRounding(wanted.rounding);
+	const double spread = request.goal.spread;
+	model.setRounding(request.rounding);
 	Growth growth(request, model, sites);
-	while (model.distortion() > wanted.distortion &&
-		   (model.size() < kMaxPlacedCones || growth.mayGoOn())) {
+	while (model.distortion() > spread && (model.size() < kMaxPlacedCones || growth.mayGoOn())) {
 		model.setRounding(ConeRounding::Free);
 		if (!growth.add())
 			break;
-		if (model.distortion() <= kSpreadSlack * wanted.distortion)
+		if (model.distortion() <= kSpreadSlack * spread)
 			relocateCones(model, sites);
-		model.setRounding(wanted.rounding);
+		model.setRounding(request.rounding);
 	}
 }
 
@@ -199,15 +197,14 @@ void addForAreas(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	const ConeOptions& wanted = request.options.cones;
 	const int limit = std::min(model.size() + kMaxPlacedCones, maxCones(model, request));
-	model.setRounding(wanted.rounding);
+	model.setRounding(request.rounding);
 	while (model.size() < limit &&
-		   areaExcess(areaChange(surface, model.factor()), wanted.distortion) > 1.0) {
+		   areaExcess(areaChange(surface, model.factor()), request.goal.spread) > 1.0) {
 		model.setRounding(ConeRounding::Free);
 		if (!addCones(model, sites))
 			break;
-		model.setRounding(wanted.rounding);
+		model.setRounding(request.rounding);
 	}
 }
 
@@ -215,29 +212,30 @@ void addForAreas(
 void search(const TargetRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	startCones(model, sites);
-	const ConeOptions& wanted = request.options.cones;
-	const ConeGoal goal = request.goal();
-	if (goal == ConeGoal::Count)
-		placeCount(wanted, model, sites);
-	else if (goal == ConeGoal::LeastCost)
+	const ConeGoal& goal = request.goal;
+	switch (goal.kind) {
+	case ConeGoal::LeastCost:
 		placeForObjective(request, model, sites);
-	else {
-		addForDistortion(request, model, sites);
-		if (model.distortion() <= wanted.distortion && model.size() <= kMaxPlacedCones)
-			dropCones(model, sites, wanted.distortion);
+		break;
+	case ConeGoal::Count:
+		placeCount(goal.count, model, sites);
+		break;
+	case ConeGoal::Spread:
+		addForSpread(request, model, sites);
+		if (model.distortion() <= goal.spread && model.size() <= kMaxPlacedCones)
+			dropCones(model, sites, goal.spread);
+		break;
 	}
-	if (wanted.rounding != ConeRounding::Free) {
-		model.setRounding(wanted.rounding); // also where no vertex was left for one more cone
+	if (request.rounding != ConeRounding::Free) {
+		model.setRounding(request.rounding); // also where no vertex was left for one more cone
 		relocateCones(model, sites);
 	}
 	removeWeakCones(model);
-	if (goal != ConeGoal::LeastCost) {
+	if (goal.kind != ConeGoal::LeastCost) {
 		SeamTree tree(sites, model.vertices());
-		shortenConeTree(
-			model,
-			tree,
-			sites,
-			goal == ConeGoal::Count ? kSeamAllowance * model.distortion() : wanted.distortion);
+		const double most =
+			goal.kind == ConeGoal::Count ? kSeamAllowance * model.distortion() : goal.spread;
+		shortenConeTree(model, tree, sites, most);
 		removeWeakCones(model);
 	}
 }
@@ -318,7 +316,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 	VertexVector u;
 	const auto fit = [&] {
 		u = flow.factor(spread(k));
-		if (request.options.cones.rounding != ConeRounding::Free || model.size() == 0)
+		if (request.rounding != ConeRounding::Free || model.size() == 0)
 			return;
 		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
 		double gain = rest.dot(step);
@@ -346,8 +344,8 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 	return placed;
 }
 
-/// The same for a number of cones or a distortion, and then on the surface itself as far as its own
-/// distortion asks for it.
+/// The same for a number of cones or a spread, and then on the surface itself as far as its own
+/// spread asks for it.
 void searchFromCoarse(
 	const TargetRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
@@ -356,24 +354,24 @@ void searchFromCoarse(
 	const ConeSites coarseSites(sites, roots);
 	ConeModel coarseModel(coarse, model.total());
 	TargetRequest coarseRequest = request;
-	const bool isCounted = request.goal() == ConeGoal::Count;
-	model.setRounding(request.options.cones.rounding);
-	double excess = 0.0; // of the distortion on the surface itself
+	const bool isCounted = request.goal.kind == ConeGoal::Count;
+	model.setRounding(request.rounding);
+	double excess = 0.0; // of the spread on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
 		std::vector<Vertex> cones = coarseModel.vertices();
 		for (Vertex& v : cones)
 			v = roots[v];
 		setCones(std::move(cones), model);
-		excess = model.distortion() / request.options.cones.distortion;
+		excess = model.distortion() / request.goal.spread;
 		if (isCounted || excess <= 1.0)
 			break;
-		coarseRequest.options.cones.distortion /= excess;
+		coarseRequest.goal.spread /= excess;
 	}
 	if (isCounted || excess > 1.0)
 		relocateCones(model, sites, kMaxFineRounds);
 	if (!isCounted)
-		addForDistortion(request, model, sites);
+		addForSpread(request, model, sites);
 	removeWeakCones(model);
 }
 
@@ -391,7 +389,7 @@ placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest
 {
 	advance(0.0, "Placing cones");
 	const bool isLarge = surface.triangulation.vertexCount() > kMaxSearched;
-	if (isLarge && request.goal() == ConeGoal::LeastCost)
+	if (isLarge && request.goal.kind == ConeGoal::LeastCost)
 		return placeOnAggregates(surface, flow, request);
 	const ConeSites sites(surface, request.coneVertices());
 	ConeModel model(flow, surface.topology.type.totalCurvature(), request.energyFactor);
@@ -412,7 +410,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRe
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.coneVertices());
 	LinearFlow linear(surface, flow, request.boundary(), tailWeights(surface, flowFactor(flow)));
-	if (request.goal() == ConeGoal::LeastCost) {
+	if (request.goal.kind == ConeGoal::LeastCost) {
 		PlacedCones placed = placeCones(surface, linear, request);
 		const auto k = Eigen::Map<const Eigen::VectorXd>(
 			placed.curvatures.data(), static_cast<Eigen::Index>(placed.curvatures.size()));

@@ -14,12 +14,38 @@
 
 namespace ricci {
 
+/// What cones are placed for, and what goes with it.
+struct ConeGoal
+{
+	enum Kind { LeastCost, Count, Spread };
+	Kind kind = LeastCost;
+	int count = 0;       ///< of Count
+	double spread = 0.0; ///< of Spread: of areas, at most
+
+	/// Of LeastCost: cones are mirrored by it where that costs hardly more; null: no such wish. Its vertices are the first
+	/// ones of the surface.
+	std::shared_ptr<const MirrorSymmetry> mirror = nullptr;
+};
+
+inline ConeGoal coneGoal(const ConeOptions& options)
+{
+	if (options.count > 0)
+		return {ConeGoal::Count, options.count};
+	if (options.distortion > 0.0)
+		return {ConeGoal::Spread, 0, options.distortion};
+	return {};
+}
+
 /// What chooseTarget() is asked for, and which cones placeCones() looks for, and where.
 struct TargetRequest : TargetInput
 {
-	TargetOptions options;
-	bool measuresAreas = true; ///< false: Automatic decides by topology alone
-	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
+	TargetCurvature target = TargetCurvature::Automatic;
+	ConeGoal goal;
+	ConeRounding rounding = ConeRounding::Free;
+	bool freeBoundary = true;     ///< u is fixed on the boundary
+	bool onlyWhereNeeded = false; ///< see ConeOptions
+	bool measuresAreas = true;    ///< false: Automatic decides by topology alone
+	bool hasSeam = false;         ///< see OpenedMesh: Automatic makes no flat annulus of it
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
 	double alternative = kInfinity;
 	/// By what energy beyond that of an isometry costs more than is expected, see MapCost::total().
@@ -29,14 +55,9 @@ struct TargetRequest : TargetInput
 	/// and cones at any.
 	VertexArray<int> vertexNumbers = {};
 
-	/// Cones that are placed for the least cost are mirrored by it where that costs hardly more; null: no such wish. Its
-	/// vertices are the first ones.
-	std::shared_ptr<const MirrorSymmetry> mirror = nullptr;
-
-	ConeGoal goal() const { return goalOf(options.cones); }
 	ConeBoundary boundary() const
 	{
-		return options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
+		return freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
 	}
 	/// Cones lie at vertices with a number below this; -1: at any.
 	int coneVertices() const { return vertexNumbers.empty() ? -1 : vertexNumbers.size(); }
@@ -97,7 +118,7 @@ PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request);
 
 /// Fits again the curvatures of the cones that \p flow has reached, and adds cones, until areas are
-/// expected to change as \p request allows (areaExcess() at its distortion), or kMaxPlacedCones were
+/// expected to change as \p request allows (areaExcess() at its spread), or kMaxPlacedCones were
 /// added. The linear problem is that of the metric of \p flow, where it knows how far the first
 /// one was from the truth. Mean squares weigh the parts of the surface that have become very small or
 /// very large, see tailWeights().

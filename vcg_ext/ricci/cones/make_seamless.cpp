@@ -78,7 +78,7 @@ public:
 		double radius) :
 			m_surface(surface),
 			m_holonomy(holonomy), m_sites(surface, request.coneVertices()),
-			m_keepsCount(request.goal() == ConeGoal::Count),
+			m_keepsCount(request.goal.kind == ConeGoal::Count),
 			m_linear(surface, flow, request.boundary(), areaShares(surface)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature),
 			m_errors(holonomy.errors), m_root(holonomy.cost.llt().matrixU()),

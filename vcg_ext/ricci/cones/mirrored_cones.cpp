@@ -84,10 +84,10 @@ std::vector<Vertex> mirrorCones(
 	for (const Vertex v : model.vertices())
 		own[v] = roots.empty() ? v : roots[v];
 	ConesOfSurface best = own;
-	if (request.mirror) {
+	if (request.goal.mirror) {
 		double least = cost() + kMirrorPrice * expectedEnergy(0.0);
 		for (const bool isAbove : {false, true}) {
-			ConesOfSurface next = ofHalf(*request.mirror, isAbove, own, place);
+			ConesOfSurface next = ofHalf(*request.goal.mirror, isAbove, own, place);
 			if (next.empty() || static_cast<int>(next.size()) < model.minSize())
 				continue;
 			take(next);
@@ -106,9 +106,9 @@ std::vector<Vertex> mirrorCones(
 
 void mirrorCurvatures(const TargetRequest& request, PlacedCones& placed)
 {
-	if (!request.mirror)
+	if (!request.goal.mirror)
 		return;
-	const VertexArray<Vertex>& image = request.mirror->image;
+	const VertexArray<Vertex>& image = request.goal.mirror->image;
 	std::map<Vertex, double> curvature;
 	for (std::size_t i = 0; i < placed.vertices.size(); ++i)
 		curvature[placed.vertices[i]] = placed.curvatures[i];

@@ -119,7 +119,7 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	}
 	target.notes.push_back(
 		std::to_string(cones.size()) + " cones of curvature " + number(share) + " each.");
-	if (topology.type.isClosed() || !request.options.freeBoundary)
+	if (topology.type.isClosed() || !request.freeBoundary)
 		return;
 	if (!onBoundary)
 		freeTheBoundary(surface, target);
@@ -148,7 +148,7 @@ void setPrescribedValues(
 	Target& target)
 {
 	setPrescribed(request, target);
-	if (!surface.topology.type.isClosed() && request.options.freeBoundary) {
+	if (!surface.topology.type.isClosed() && request.freeBoundary) {
 		freeTheBoundary(surface, target);
 		check(surface, target);
 		checkScales(surface, start, target);
@@ -215,13 +215,13 @@ void setPlacedCones(
 	}
 	target.used = TargetUsed::PlacedCones;
 	target.expectedSpread = cones.distortion;
-	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
+	target.isSeamless = request.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (request.measuresAreas && request.goal() != ConeGoal::Count)
+	if (request.measuresAreas && request.goal.kind != ConeGoal::Count)
 		target.expected = cones.expectation();
 	if (surface.topology.type.isClosed())
 		return;
-	if (request.options.freeBoundary)
+	if (request.freeBoundary)
 		freeTheBoundary(surface, target);
 	else
 		prescribeByLength(surface, surface.topology.type.totalCurvature() - total, target);
@@ -242,7 +242,7 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	const SurfaceType& type = surface.topology.type;
 	if (type.isTorus() || isFlatAnnulus(surface, request))
 		target.used = TargetUsed::Flat;
-	else if (request.options.freeBoundary) {
+	else if (request.freeBoundary) {
 		target.used = TargetUsed::FreeBoundary;
 		freeTheBoundary(surface, target);
 	}
@@ -271,10 +271,10 @@ void choosePlainOrCones(
 	std::optional<PlacedCones> cones =
 		isFlat ? placeCones(surface, start, request) : placeCones(surface, flow, request);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
-	const bool goesBySpread = request.goal() == ConeGoal::Spread;
+	const bool goesBySpread = request.goal.kind == ConeGoal::Spread;
 	target.seamsWithout = cones->seamsWithout;
 	MapCost plain{expectedEnergy(spread), target.seamsWithout};
-	const bool isKept = goesBySpread ? spread <= request.options.cones.distortion
+	const bool isKept = goesBySpread ? spread <= request.goal.spread
 									 : plain.energy - expectedEnergy(0.0) < kConePrice;
 	if (isKept)
 		cones.reset();
@@ -316,7 +316,7 @@ void choosePlainOrCones(
 					 describe(cones->expectation())
 			   : "") +
 		".");
-	if (request.goal() != ConeGoal::Count)
+	if (request.goal.kind != ConeGoal::Count)
 		target.expected = plain;
 }
 
@@ -332,11 +332,11 @@ void setAutomatic(
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
 		setPlacedCones(surface, placeCones(surface, start, request), request, target);
 	}
-	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
+	else if (request.measuresAreas && (type.isClosed() || request.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
 	else {
 		target.choice =
-			request.options.cones.onlyWhereNeeded ? "no cones, because the surface needs none"
+			request.onlyWhereNeeded ? "no cones, because the surface needs none"
 			: request.measuresAreas
 				? "no cones, because of the topology and the requested boundary"
 				: "no cones, because only the method 'Intrinsic flips' places them to keep areas";
@@ -350,9 +350,8 @@ Target
 chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
-	target.used =
-		static_cast<TargetUsed>(request.options.target); // Automatic ends with another one
-	switch (request.options.target) {
+	target.used = static_cast<TargetUsed>(request.target); // Automatic ends with another one
+	switch (request.target) {
 	case TargetCurvature::Automatic:
 		setAutomatic(surface, start, request, target);
 		break;
@@ -377,7 +376,7 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 	}
 	const bool isImplied = target.used == TargetUsed::Flat || target.used == TargetUsed::Disk ||
 						   target.used == TargetUsed::Rectangle;
-	if (isImplied && request.options.freeBoundary && !surface.topology.type.isClosed())
+	if (isImplied && request.freeBoundary && !surface.topology.type.isClosed())
 		target.notes.push_back(
 			"The target prescribes the boundary: the option of a free boundary has no effect.");
 	check(surface, target);
@@ -388,7 +387,7 @@ bool keepsAreas(
 	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
 	const std::optional<MapCost>& expected = flow.target.expected;
-	const bool goesBySpread = request.goal() == ConeGoal::Spread;
+	const bool goesBySpread = request.goal.kind == ConeGoal::Spread;
 	return !expected || areaCost(surface, flow, request) <=
 							(goesBySpread ? 1.0 : expected->total() + kWorthAFlow);
 }
@@ -397,8 +396,8 @@ double
 areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	return request.goal() == ConeGoal::Spread
-			   ? areaExcess(change, request.options.cones.distortion, kSpreadSlack)
+	return request.goal.kind == ConeGoal::Spread
+			   ? areaExcess(change, request.goal.spread, kSpreadSlack)
 			   : MapCost{change.energy, flow.target.expected->seams}.total();
 }
 
@@ -409,10 +408,9 @@ std::optional<Target> targetToKeepAreas(
 	const TargetRequest& request)
 {
 	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
-	const PlacedCones cones = wasFlat && request.options.freeBoundary
-								  ? placeCones(surface, start, request)
-								  : moreCones(surface, flow, request);
-	if (request.goal() == ConeGoal::LeastCost &&
+	const PlacedCones cones = wasFlat && request.freeBoundary ? placeCones(surface, start, request)
+															  : moreCones(surface, flow, request);
+	if (request.goal.kind == ConeGoal::LeastCost &&
 		cones.expectation().total() > areaCost(surface, flow, request) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
