@@ -70,22 +70,22 @@ TEST(ShortestPaths, AreThoseOfBellmanAndFord)
 		const std::vector<int> roots = someNodes(1 + random.index(3), n, random);
 		const auto paths = shortestPaths<int, int>(
 			n, roots, [&](int node, const auto& visit) { graph.neighbours(node, visit); });
-		EXPECT_EQ(paths.distance, graph.distances(roots));
+		EXPECT_EQ(paths.distances(), graph.distances(roots));
 		for (int node = 0; node < n; ++node) {
 			const bool isRoot = std::find(roots.begin(), roots.end(), node) != roots.end();
-			unreached += paths.distance[node] == kInfinity;
-			if (isRoot || paths.distance[node] == kInfinity) {
-				EXPECT_EQ(paths.parent[node], -1);
+			unreached += paths[node] == kInfinity;
+			if (isRoot || paths[node] == kInfinity) {
+				EXPECT_EQ(paths.parent(node), -1);
 				continue;
 			}
-			const Graph::Link& link = graph.links[paths.parent[node]];
+			const Graph::Link& link = graph.links[paths.parent(node)];
 			EXPECT_EQ(link.to, node);
-			EXPECT_EQ(paths.distance[link.from] + link.length, paths.distance[node]);
+			EXPECT_EQ(paths[link.from] + link.length, paths[node]);
 			int last = node; // the parents lead to a root
-			for (int steps = 0; paths.parent[last] >= 0 && steps <= n; ++steps)
-				last = graph.links[paths.parent[last]].from;
-			EXPECT_EQ(paths.distance[last], 0.0);
-			EXPECT_EQ(paths.parent[last], -1);
+			for (int steps = 0; paths.parent(last) >= 0 && steps <= n; ++steps)
+				last = graph.links[paths.parent(last)].from;
+			EXPECT_EQ(paths[last], 0.0);
+			EXPECT_EQ(paths.parent(last), -1);
 		}
 	}
 	EXPECT_GT(unreached, 100);

@@ -225,16 +225,17 @@ chooseRequest(const EmbeddedSurface& surface, const Options& options, std::strin
 	request.goal = coneGoal(options.cones);
 	request.rounding = options.cones.rounding;
 	request.freeBoundary = options.freeBoundary;
-	request.selected.assign(vertexCount, 0);
-	request.prescribed.assign(vertexCount, 0.0);
+	request.selected.assign(positionOf(vertexCount), 0);
+	request.targetCurvature.assign(positionOf(vertexCount), 0.0);
 	name = "automatic";
 	if (!type.isClosed() || type.isTorus())
 		return request;
 	name = "uniform";
 	request.target = TargetCurvature::Prescribed;
-	request.prescribedPrecision = 1e-12;
-	request.prescribed.assign(
-		vertexCount, 2 * kPi * type.eulerCharacteristic() / static_cast<double>(vertexCount));
+	request.precision = 1e-12;
+	request.targetCurvature.assign(
+		positionOf(vertexCount),
+		2 * kPi * type.eulerCharacteristic() / static_cast<double>(vertexCount));
 	return request;
 }
 

@@ -203,7 +203,7 @@ TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
 					visit(w.to, w.length, from);
 			};
 			const auto distance =
-				shortestPaths<Vertex, Vertex>(sites.toCut().size(), {placeOf(i)}, way).distance;
+				shortestPaths<Vertex, Vertex>(sites.toCut().size(), {placeOf(i)}, way).distances();
 			d.emplace_back();
 			for (const Vertex j : chosen.indices())
 				d.back().push_back(distance[placeOf(j)]);

@@ -59,7 +59,7 @@ TEST(Cotree, LeavesTheShortestLoopsThatOpenTheSurface)
 					visit(t.target(h), 1.0, h);
 			});
 		EdgeArray<char> inTree(t.edgeCount(), 0), isLeft(t.edgeCount(), 0);
-		for (const Halfedge h : paths.parent)
+		for (const Halfedge h : paths.parents())
 			if (h.isValid())
 				inTree[h.edge()] = 1;
 		EdgeArray<double> length(t.edgeCount(), 0.0);

@@ -76,7 +76,7 @@ std::set<int> rootsOf(const SurfaceMesh& mesh)
 {
 	std::set<int> roots;
 	const Array<Triangle> triangles(mesh.triangles);
-	const FaceGluing gluing = glueFaces(Array<Point3>(mesh.positions), triangles);
+	const FaceGluing gluing = glueFaces(mesh.positions, triangles);
 	const FacePartition partition = partitionFaces(triangles, gluing.glued);
 	EXPECT_LE(partition.contradicted.size(), 16); // all of them are tried
 	for (const Corner side : partition.contradicted)

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -74,8 +73,8 @@ FlippedFlow::FlippedFlow(
 
 void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 {
-	request.selected.resize(base().vertexCount(), 0);
-	request.prescribed.resize(base().vertexCount(), 0.0);
+	request.selected.resize(at(base().vertexCount()), 0);
+	request.targetCurvature.resize(at(base().vertexCount()), 0.0);
 	const FlowOptions options = optionsOf(epsilon);
 	result = runRicciFlow(
 		surface(),
@@ -86,10 +85,8 @@ void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 
 void FlippedFlow::run(TargetRequest request, double epsilon)
 {
-	request.selected.resize(base().vertexCount(), 0);
-	request.prescribed.resize(base().vertexCount(), 0.0);
-	if (request.prescribedPrecision == 0.0)
-		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
+	request.selected.resize(at(base().vertexCount()), 0);
+	request.targetCurvature.resize(at(base().vertexCount()), 0.0);
 	const FlowOptions options = optionsOf(epsilon);
 	InitialPacking start = initialPacking(surface(), options);
 	const Target target = chooseTarget(surface(), start, request);
@@ -140,14 +137,14 @@ TargetRequest conesAt(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 	TargetRequest request = requestOf(TargetCurvature::SelectedCones, false);
 	request.selected.assign(mesh.positions.size(), 0);
 	for (int v : vertices)
-		request.selected[Vertex(v)] = 1;
+		request.selected[at(v)] = 1;
 	return request;
 }
 
 TargetRequest prescribed(std::vector<double> curvature, bool freeBoundary)
 {
 	TargetRequest request = requestOf(TargetCurvature::Prescribed, freeBoundary);
-	request.prescribed = VertexArray<double>(std::move(curvature));
+	request.targetCurvature = std::move(curvature);
 	return request;
 }
 
@@ -162,7 +159,7 @@ HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature)
 {
 	HyperbolicRequest request;
 	request.options.target = HyperbolicTarget::Prescribed;
-	request.prescribed = VertexArray<double>(std::move(curvature));
+	request.targetCurvature = std::move(curvature);
 	return request;
 }
 

@@ -18,7 +18,7 @@
 namespace ricci::testing {
 
 /// What chooseHyperbolicTarget() is asked for.
-struct HyperbolicRequest : TargetInput
+struct HyperbolicRequest : VertexInput
 {
 	HyperbolicTargetOptions options;
 };

@@ -51,7 +51,8 @@ bool isHardlyLonger(const EmbeddedSurface& surface, const CutGraph& cut, const C
 
 void describeByMap(const Component& component, Parametrization& map)
 {
-	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
+	const Topology topology =
+		topologyOf(Triangulation(component.positions.size(), component.triangles));
 	map.targetCurvature = curvatureOf(map.mesh, topology.boundary);
 	Report& report = map.report;
 	report.components = 1;
@@ -80,17 +81,18 @@ void FlowLog::add(const Target& target)
 	notes.insert(notes.end(), target.notes.begin(), target.notes.end());
 }
 
-TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount)
+VertexInput inputOf(const Component& component, const VertexInput& input, int vertexCount)
 {
-	TargetInput values;
-	values.selected.resize(vertexCount, 0);
-	values.prescribed.resize(vertexCount, 0.0);
-	values.prescribedPrecision = input.precision;
+	VertexInput values;
+	values.selected.resize(positionOf(vertexCount), 0);
+	values.targetCurvature.resize(positionOf(vertexCount), 0.0);
+	values.precision = input.precision;
 	for (const Vertex v : component.vertex.indices()) {
+		const std::size_t own = positionOf(v), given = positionOf(component.vertex[v]);
 		if (!input.selected.empty())
-			values.selected[v] = input.selected[positionOf(component.vertex[v])];
+			values.selected[own] = input.selected[given];
 		if (!input.targetCurvature.empty())
-			values.prescribed[v] = input.targetCurvature[positionOf(component.vertex[v])];
+			values.targetCurvature[own] = input.targetCurvature[given];
 	}
 	return values;
 }

@@ -30,7 +30,7 @@ struct FlowLog
 };
 
 /// The values of a surface of \p vertexCount vertices whose first ones are the component's.
-TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount);
+VertexInput inputOf(const Component& component, const VertexInput& input, int vertexCount);
 
 /// A flow of a component, first or again.
 /// \throw as runRicciFlow()

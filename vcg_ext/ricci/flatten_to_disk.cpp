@@ -69,7 +69,7 @@ Parametrization flattenToDisk(
 	logComponent(component, type);
 	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
 	advance(0.0, "Choosing the target");
-	const TargetInput values = targetInput(component, input, component.vertex.size());
+	const VertexInput values = inputOf(component, input, component.vertex.size());
 	const Target target =
 		chooseHyperbolicTarget(domain.surface.topology, options, values); // 5.2, 5.3
 	FlowLog log;

@@ -57,8 +57,8 @@ TargetRequest targetRequest(
 	const FlowDomain& domain)
 {
 	TargetRequest request;
-	static_cast<TargetInput&>(request) =
-		targetInput(component, input, domain.solved().positions.size());
+	static_cast<VertexInput&>(request) =
+		inputOf(component, input, domain.solved().positions.size());
 	request.target = options.target;
 	request.goal = coneGoal(options.cones);
 	request.rounding = options.cones.rounding;
@@ -89,8 +89,9 @@ FlowResult
 flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& plan, FlowLog& log)
 {
 	const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
-		plan.request.selected.resize(surface.positions.size(), 0); // where the boundary is split
-		plan.request.prescribed.resize(surface.positions.size(), 0.0);
+		const auto count = surface.positions.values().size(); // more where the boundary is split
+		plan.request.selected.resize(count, 0);
+		plan.request.targetCurvature.resize(count, 0.0);
 		Target target = chooseTarget(surface, start, plan.request);
 		if (log.states.empty())
 			log.add(target);

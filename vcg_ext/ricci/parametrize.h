@@ -11,15 +11,6 @@
 
 namespace ricci {
 
-/// Values at the vertices of the mesh that some targets read. Empty where the mode has no use for
-/// them. Vertices that are joined (JoinSplitVertices) are selected if one of them is, and have the target of the first.
-struct VertexInput
-{
-	std::vector<char> selected;          ///< Rectangle, SelectedCones
-	std::vector<double> targetCurvature; ///< Prescribed, radians
-	double precision = 2.3e-16;          ///< relative rounding error of targetCurvature
-};
-
 /// Checks the options of a run by themselves, without a mesh. The functions below call it.
 /// \throw InvalidOption
 void checkOptions(const Options& options);

@@ -378,7 +378,7 @@ std::exception_ptr whyNot(
 		topologyOf(Triangulation(component.positions.size(), component.triangles));
 	try {
 		chooseHyperbolicTarget(
-			topology, options, targetInput(component, input, component.vertex.size()));
+			topology, options, inputOf(component, input, component.vertex.size()));
 	}
 	catch (InadmissibleCurvature& error) {
 		nameComponent(opened, component, error);

@@ -179,15 +179,6 @@ private:
 	Queue m_queue;
 };
 
-/// Distances from some roots, and the way there.
-template<class Node, class Link>
-struct ShortestPaths
-{
-	IndexedArray<Node, double> distance; ///< infinite where no path leads
-	IndexedArray<Node, Link> parent;     ///< the link by which the path arrives; Link(-1) at the
-										 ///< roots and where no path leads
-};
-
 /// Dijkstra's algorithm [Dijkstra 1959], in the hands of its caller: nodes are offered distances,
 /// and come back one after another with their final ones. \p Node is the type of the nodes' indices,
 /// \p Link that of what leads from one to the next (a halfedge). Entries of the queue that a shorter
@@ -196,18 +187,17 @@ template<class Node, class Link>
 class SearchFront
 {
 public:
-	explicit SearchFront(int nodeCount)
+	explicit SearchFront(int nodeCount) :
+			m_distance(nodeCount, kInfinity), m_parent(nodeCount, Link(-1))
 	{
-		m_paths.distance.assign(nodeCount, kInfinity);
-		m_paths.parent.assign(nodeCount, Link(-1));
 	}
 
 	/// Forgets everything, in time proportional to the number of nodes that were reached.
 	void clear()
 	{
 		for (const Node node : m_reached) {
-			m_paths.distance[node] = kInfinity;
-			m_paths.parent[node] = Link(-1);
+			m_distance[node] = kInfinity;
+			m_parent[node] = Link(-1);
 		}
 		m_reached.clear();
 		m_queue.clear();
@@ -216,20 +206,20 @@ public:
 	/// A path of this length leads to \p node, by \p link at its end.
 	void offer(Node node, double distance, Link link = Link(-1))
 	{
-		double& known = m_paths.distance[node];
+		double& known = m_distance[node];
 		if (!(distance < known))
 			return;
 		if (known == kInfinity)
 			m_reached.push_back(node);
 		known = distance;
-		m_paths.parent[node] = link;
+		m_parent[node] = link;
 		m_queue.push(distance, node);
 	}
 
 	/// Distance of the node whose turn is next, infinite if none is left.
 	double nearest()
 	{
-		while (!m_queue.empty() && m_queue.top().first != m_paths.distance[m_queue.top().second])
+		while (!m_queue.empty() && m_queue.top().first != m_distance[m_queue.top().second])
 			m_queue.pop();
 		return m_queue.empty() ? kInfinity : m_queue.top().first;
 	}
@@ -240,23 +230,25 @@ public:
 		return nearest() < bound ? m_queue.pop().second : Node(-1);
 	}
 
-	double operator[](Node node) const { return m_paths.distance[node]; }
-	Link parent(Node node) const { return m_paths.parent[node]; }
-
-	/// Moves the result out of the front, which then is of no further use.
-	ShortestPaths<Node, Link> release() { return std::move(m_paths); }
+	/// The distances so far, infinite where no path leads.
+	const IndexedArray<Node, double>& distances() const { return m_distance; }
+	double operator[](Node node) const { return m_distance[node]; }
+	/// The links by which the paths arrive: Link(-1) at roots and where no path leads.
+	const IndexedArray<Node, Link>& parents() const { return m_parent; }
+	Link parent(Node node) const { return m_parent[node]; }
 
 private:
-	ShortestPaths<Node, Link> m_paths;
+	IndexedArray<Node, double> m_distance;
+	IndexedArray<Node, Link> m_parent;
 	std::vector<Node> m_reached;
 	DistanceQueue<Node> m_queue;
 };
 
-/// Shortest paths from the nearest of \p roots to all nodes.
+/// All shortest paths from the nearest of \p roots to all nodes.
 /// \param forNeighbours forNeighbours(node, visit) calls visit(neighbour, length, link) for each link
 /// that leads on from \p node; lengths are not negative
 template<class Node, class Link, class ForNeighbours>
-ShortestPaths<Node, Link>
+SearchFront<Node, Link>
 shortestPaths(int nodeCount, const std::vector<Node>& roots, const ForNeighbours& forNeighbours)
 {
 	SearchFront<Node, Link> front(nodeCount);
@@ -269,7 +261,7 @@ shortestPaths(int nodeCount, const std::vector<Node>& roots, const ForNeighbours
 			front.offer(neighbour, distance + length, link);
 		});
 	}
-	return front.release();
+	return front;
 }
 
 } // namespace ricci

@@ -4,6 +4,7 @@
 #define RICCI_OUTLINE_CELLS_H
 
 #include "../base/points.h"
+#include "../base/task.h"
 #include "outline_packing.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -235,8 +237,14 @@ using Cost = std::array<int, 3>;
 struct Spot
 {
 	Cost cost{std::numeric_limits<int>::max(), 0, 0};
-	const Shape* shape = nullptr;
+	const Shape* shape = nullptr; ///< none: there is no place
 	int x = 0, y = 0;
+
+	/// Of the outline, where a cell has this side.
+	Motion motion(double cell) const
+	{
+		return {shape->motion.turn, shape->motion.shift + std::complex<double>(x * cell, y * cell)};
+	}
 };
 
 class Canvas
@@ -254,8 +262,29 @@ public:
 	{
 		m_taken.clear(m_side * m_levels);
 		m_side = 0;
+		m_reached.clear();
 	}
 
+	/// Places one of these shapes of an outline where the square that holds all so far is smallest. What is about as large
+	/// as one that has a place is not looked for nearer, but for twice its own extent.
+	/// \param shapes not empty
+	/// \param side of the square, which has to stay smaller
+	Spot put(const std::vector<Shape>& shapes, int side)
+	{
+		Spot spot;
+		spot.cost[0] = side;
+		int& reached = m_reached[shapes.front().size];
+		for (const Shape& shape : shapes)
+			look(shape, reached - 2 * shape.extent(), spot);
+		checkpoint();
+		if (spot.shape) {
+			take(spot);
+			reached = spot.cost[1];
+		}
+		return spot;
+	}
+
+private:
 	/// Takes a better place of \p shape than \p best, if there is one.
 	/// \param least cells that it reaches along an axis; it is not looked for nearer
 	void look(const Shape& shape, int least, Spot& best)
@@ -297,7 +326,6 @@ public:
 		m_side = spot.cost[0];
 	}
 
-private:
 	/// No place that reaches farther along an axis is better.
 	int farthest(const Spot& best) const
 	{
@@ -346,7 +374,8 @@ private:
 	Rows m_taken; // [y, k] the x from which one of 2^k cells is taken
 	/// Of the runs of a shape, those that block most first.
 	std::vector<std::array<Blocker, 2>> m_blockers;
-	int m_side = 0; // of the square that holds all
+	int m_side = 0;               // of the square that holds all
+	std::map<int, int> m_reached; // by Shape::size
 	long long m_work = 0;
 };
 

@@ -4,12 +4,10 @@
 #include "../base/convex_hull.h"
 #include "../base/indexed.h"
 #include "../base/parallel.h"
-#include "../base/task.h"
 #include "outline_cells.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -93,39 +91,6 @@ struct Try
 	std::size_t last = 0;        ///< outline that reaches farthest, or that has no place
 };
 
-/// Places shapes one after the other where the square that holds all so far is smallest. What is about as large as one
-/// that has a place is not looked for nearer, but for twice its own extent.
-class Placer
-{
-public:
-	Placer(double cell, Canvas& canvas) : m_cell(cell), m_canvas(canvas) { canvas.clear(); }
-
-	/// \param shapes of one outline, to choose from; not empty
-	/// \param side cells of the square, which has to stay smaller
-	/// \return where along an axis it reaches to, in cells, or 0 where it has no place
-	int put(const std::vector<Shape>& shapes, int side, Motion& motion)
-	{
-		Spot spot;
-		spot.cost[0] = side;
-		int& reached = m_reached[shapes.front().size];
-		for (const Shape& shape : shapes)
-			m_canvas.look(shape, reached - 2 * shape.extent(), spot);
-		checkpoint();
-		if (!spot.shape)
-			return 0;
-		m_canvas.take(spot);
-		reached = spot.cost[1];
-		motion = spot.shape->motion;
-		motion.shift += std::complex<double>(spot.x * m_cell, spot.y * m_cell);
-		return spot.cost[1];
-	}
-
-private:
-	double m_cell;
-	Canvas& m_canvas;
-	std::map<int, int> m_reached; // by Shape::size
-};
-
 /// Places outlines below \p side.
 /// \param first shape of the first one
 /// \param shapes [outline] to choose from
@@ -138,16 +103,16 @@ Try place(
 	int side,
 	Canvas& canvas)
 {
-	Placer placer(cell, canvas);
+	canvas.clear();
 	Try result{0, order, std::vector<Motion>(order.size()), order.front()};
 	const std::vector<Shape> ofFirst{first};
 	for (const std::size_t i : order) {
-		const int reached =
-			placer.put(i == order.front() ? ofFirst : shapes[i], side, result.motions[i]);
-		if (reached == 0)
+		const Spot spot = canvas.put(i == order.front() ? ofFirst : shapes[i], side);
+		if (!spot.shape)
 			return {0, order, {}, i};
-		if (reached > result.side) {
-			result.side = reached;
+		result.motions[i] = spot.motion(cell);
+		if (spot.cost[1] > result.side) {
+			result.side = spot.cost[1];
 			result.last = i;
 		}
 	}
@@ -320,20 +285,20 @@ std::vector<std::pair<int, Motion>> packIntoTiles(
 	Order left = orderOf(outlines, side);
 	Canvas canvas(cells);
 	for (int tile = 0; !left.empty(); ++tile) {
-		Placer placer(side / cells, canvas);
+		canvas.clear();
 		Order next;
 		double room = 1.0;
 		for (const std::size_t i : left) {
 			if (shapes[i].empty())
 				return {};
 			// An outline that covers itself may have a larger area than the square.
-			const bool isFirst = room == 1.0;
-			if ((areas[i] > room && !isFirst) ||
-				placer.put(shapes[i], cells + 1, places[i].second) == 0) {
+			const bool isFirst = room == 1.0, isLooked = areas[i] <= room || isFirst;
+			const Spot spot = isLooked ? canvas.put(shapes[i], cells + 1) : Spot();
+			if (!spot.shape) {
 				next.push_back(i);
 				continue;
 			}
-			places[i].first = tile;
+			places[i] = {tile, spot.motion(side / cells)};
 			room -= areas[i];
 		}
 		left = std::move(next);

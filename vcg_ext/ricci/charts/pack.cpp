@@ -94,9 +94,9 @@ Packing packAlone(const FlatMesh& mesh, bool isUpright)
 
 /// By outlines.
 /// \return without motions where boxes are better, or the outlines need more than that square and some more
-Packing packByOutlines(const ChartsToPack& charts, const PackSquare& square)
+Packing packByOutlines(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square)
 {
-	PackItems items = packItems(charts, square);
+	PackItems items = packItems(mesh, charts, square);
 	if (items.isMostlySmall)
 		return {};
 	const std::vector<Motion> motions = packOutlines(
@@ -168,26 +168,22 @@ PlaceBoxes checkedPlaces(const PackOptions& options)
 /// packCharts() into the unit square, without cuts.
 void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	const auto triangles = map.mesh.trianglesByChart(map.charts.size());
-	std::vector<char> isUpright(triangles.size(), 0);
-	if (turns == ChartTurns::Free && options.turns != ChartTurns::None)
-		isUpright = turnUpright(triangles, map.mesh);
-	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
-	const std::vector<char> isThin = widen(triangles, leastSquare(boxes), boxes);
+	const ChartsToPack charts = chartsToPack(options, turns, map.charts.size(), map.mesh);
+	const std::vector<Box2>& boxes = charts.boxes;
 	const PlaceBoxes placeBoxes = checkedPlaces(options);
 	double margin = options.chartMargin;
 	Packing packing = packBoxes(boxes, margin, placeBoxes);
 	while (packing.motions.empty())
 		packing = packBoxes(boxes, margin *= 0.5, placeBoxes);
 	map.report.margin = margin;
-	const ChartTurns mayTurn = std::min(turns, options.turns);
-	if (mayTurn != ChartTurns::None && packing.side() > 0.0 &&
-		!(boxes.size() == 1 && (isThin.front() || options.turns == ChartTurns::Quarter))) {
+	if (charts.turns != ChartTurns::None && packing.side() > 0.0 &&
+		!(boxes.size() == 1 && (charts.isThin.front() || options.turns == ChartTurns::Quarter))) {
 		const double padding = std::max(packing.padding, kMinPadding * packing.side());
 		Packing turned = boxes.size() == 1
-							 ? packAlone(map.mesh, isUpright.front() != 0)
+							 ? packAlone(map.mesh, charts.isUpright.front() != 0)
 							 : packByOutlines(
-								   {map.mesh, triangles, boxes, isThin, isUpright, mayTurn},
+								   map.mesh,
+								   charts,
 								   {packing.side(), padding, boxes.size(), kInfinity, placeBoxes});
 		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
 		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
@@ -276,8 +272,7 @@ class Tiles
 {
 public:
 	Tiles(const PackOptions& options, ChartTurns turns, Parametrization& map) :
-			m_options(options), m_turns(turns), m_mayTurn(std::min(turns, options.turns)),
-			m_map(map)
+			m_options(options), m_turns(turns), m_map(map)
 	{
 		const double area = map.mesh.area(), covered = map.mesh.planeArea();
 		if (area > kMaxTiles * options.tileSide * options.tileSide)
@@ -296,7 +291,7 @@ public:
 			for (const std::size_t chart : tooLong) {
 				std::optional<ChartCut> cut;
 				if (mayCut)
-					cut = findCutToFit(m_map.mesh, m_triangles[chart], m_room);
+					cut = findCutToFit(m_map.mesh, m_charts.triangles[chart], m_room);
 				if (!cut)
 					refuse(m_options.tileSide * m_extents[chart] / m_room);
 				cut->chart = static_cast<int>(chart);
@@ -312,16 +307,18 @@ public:
 	void pack()
 	{
 		// Tilted, it may be short enough.
-		for (std::size_t i = 0; i < m_boxes.size(); ++i)
-			if (m_mayTurn == ChartTurns::Free && m_boxes[i].extent() > m_room)
-				m_isUpright[i] = 0;
+		const std::vector<Box2>& boxes = m_charts.boxes;
+		for (std::size_t i = 0; i < boxes.size(); ++i)
+			if (m_charts.turns == ChartTurns::Free && boxes[i].extent() > m_room)
+				m_charts.isUpright[i] = 0;
 		const double side = 1.0 - m_padding;
 		const PlaceBoxes placeBoxes = checkedPlaces(m_options);
 		const PackItems items = packItems(
-			{m_map.mesh, m_triangles, m_boxes, m_isThin, m_isUpright, m_mayTurn},
+			m_map.mesh,
+			m_charts,
 			{side,
 			 m_padding,
-			 outlinesPerSquare(m_boxes.size(), m_map.mesh.planeArea()),
+			 outlinesPerSquare(boxes.size(), m_map.mesh.planeArea()),
 			 kLongestBox,
 			 placeBoxes});
 		const auto places = packIntoTiles(items.outlines, items.turns, side, m_padding);
@@ -329,7 +326,7 @@ public:
 			throw InternalError("A chart does not fit into a tile");
 		std::vector<Motion> motions;
 		m_map.report.tiles = 1;
-		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
+		for (std::size_t i = 0; i < boxes.size(); ++i) {
 			const auto& [tile, motion] = places[items.itemOf[i]];
 			motions.push_back(items.motionOf(i, motion));
 			const int column = tile % kTilesInRow, row = tile / kTilesInRow;
@@ -339,7 +336,7 @@ public:
 		}
 		if (m_map.report.tiles > kMaxTiles)
 			refuse(m_options.tileSide * std::sqrt(kMore * m_map.report.tiles / kMaxTiles));
-		place(motions, m_boxes, m_map);
+		place(motions, boxes, m_map);
 		m_map.report.margin = m_options.chartMargin;
 		m_map.report.occupancy = m_map.mesh.planeArea() / m_map.report.tiles;
 	}
@@ -350,15 +347,7 @@ private:
 		throw InvalidOption(InvalidOption::TileSide, m_options.tileSide, bound);
 	}
 
-	void measure()
-	{
-		m_triangles = m_map.mesh.trianglesByChart(m_map.charts.size());
-		m_isUpright.assign(m_triangles.size(), 0);
-		if (m_turns == ChartTurns::Free && m_options.turns != ChartTurns::None)
-			m_isUpright = turnUpright(m_triangles, m_map.mesh);
-		m_boxes = m_map.mesh.boxes(m_triangles.size());
-		m_isThin = widen(m_triangles, 1.0, m_boxes);
-	}
+	void measure() { m_charts = chartsToPack(m_options, m_turns, m_map.charts.size(), m_map.mesh); }
 
 	/// Fills m_extents.
 	std::vector<std::size_t> findTooLong()
@@ -366,11 +355,11 @@ private:
 		std::vector<std::size_t> tooLong;
 		m_extents.clear();
 		std::vector<std::vector<int>> pointsOf; // of charts, once they are asked for
-		for (std::size_t i = 0; i < m_boxes.size(); ++i) {
-			double extent = m_boxes[i].extent();
-			if (extent > m_room && m_mayTurn == ChartTurns::Free && !m_isThin[i]) {
+		for (std::size_t i = 0; i < m_charts.boxes.size(); ++i) {
+			double extent = m_charts.boxes[i].extent();
+			if (extent > m_room && m_charts.turns == ChartTurns::Free && !m_charts.isThin[i]) {
 				if (pointsOf.empty())
-					pointsOf = m_map.mesh.pointsByChart(m_boxes.size());
+					pointsOf = m_map.mesh.pointsByChart(m_charts.boxes.size());
 				std::vector<Point2> points;
 				for (const int p : pointsOf[i])
 					points.push_back(m_map.mesh.place[p]);
@@ -387,21 +376,17 @@ private:
 	/// many tiles, an area of each that is larger than would be enough by this factor.
 	static constexpr double kLeastFilled = 1.0 / 3.0, kMore = 1.5;
 
-	/// In a tile larger than so many square roots of the area floats would leave little of a chart.
-	static constexpr double kLargest = 1000.0;
-
-	/// Boxes of small charts are no longer, so that they find room beside others.
-	static constexpr double kLongestBox = 0.25;
+	/// In a tile larger than so many square roots of the area floats would leave little of a chart. Boxes of small charts
+	/// are no longer than the second, so that they find room beside others.
+	static constexpr double kLargest = 1000.0, kLongestBox = 0.25;
 
 	const PackOptions& m_options;
-	ChartTurns m_turns, m_mayTurn;
+	ChartTurns m_turns;
 	Parametrization& m_map;
 	double m_padding = (1.0 + kMarginSpare) * std::max(m_options.chartMargin, kMinPadding);
 	double m_room = (1.0 - kMarginSpare) * (1.0 - 2.0 * m_padding); // for the extent of a chart
-	std::vector<std::vector<int>> m_triangles;                      // [chart]
-	std::vector<char> m_isUpright, m_isThin;                        // [chart]
-	std::vector<Box2> m_boxes;                                      // [chart]
-	std::vector<double> m_extents;                                  // [chart] as it may be turned
+	ChartsToPack m_charts;
+	std::vector<double> m_extents; // [chart] as it may be turned
 };
 
 } // namespace

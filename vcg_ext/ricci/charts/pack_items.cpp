@@ -102,8 +102,7 @@ std::pair<double, std::vector<Point2>> onShelves(
 	return {side, std::move(shifts)};
 }
 
-} // namespace
-
+/// Side that a square needs at least to hold boxes.
 double leastSquare(const std::vector<Box2>& boxes)
 {
 	double longest = 0.0, area = 0.0;
@@ -113,6 +112,8 @@ double leastSquare(const std::vector<Box2>& boxes)
 	}
 	return std::max(longest, std::sqrt(area));
 }
+
+} // namespace
 
 std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 {
@@ -144,6 +145,10 @@ void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
 		mesh.place[p] = motions[positionOf(chart[p])](mesh.place[p]);
 }
 
+namespace {
+
+/// \param triangles [chart]
+/// \return [chart] 1 for those that have an uprightTurn(), and now lie along the axes
 std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, FlatMesh& mesh)
 {
 	std::vector<char> isUpright(triangles.size(), 0);
@@ -160,6 +165,8 @@ std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, Fl
 	return isUpright;
 }
 
+/// \param side of a square that holds charts
+/// \return [box] 1 for those that are thin
 std::vector<char>
 widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<Box2>& boxes)
 {
@@ -178,7 +185,24 @@ widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<B
 	return isThin;
 }
 
-PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
+} // namespace
+
+ChartsToPack
+chartsToPack(const PackOptions& options, ChartTurns turns, std::size_t count, FlatMesh& mesh)
+{
+	ChartsToPack charts;
+	charts.turns = std::min(turns, options.turns);
+	charts.triangles = mesh.trianglesByChart(count);
+	charts.isUpright.assign(count, 0);
+	if (turns == ChartTurns::Free && options.turns != ChartTurns::None)
+		charts.isUpright = turnUpright(charts.triangles, mesh);
+	charts.boxes = mesh.boxes(count);
+	const double side = options.tileSide > 0.0 ? 1.0 : leastSquare(charts.boxes);
+	charts.isThin = widen(charts.triangles, side, charts.boxes);
+	return charts;
+}
+
+PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square)
 {
 	const std::vector<Box2>& boxes = charts.boxes;
 	std::vector<std::size_t> order(boxes.size());
@@ -202,14 +226,13 @@ PackItems packItems(const ChartsToPack& charts, const PackSquare& square)
 	items.itemOf.resize(boxes.size());
 	items.shiftOf.resize(boxes.size(), {0.0, 0.0});
 	items.outlines.resize(large.size());
-	tasksInParallel(
-		static_cast<int>(large.size()), threadsFor(charts.mesh.size() / 32), [&](int k) {
-			const std::size_t i = large[positionOf(k)];
-			Outline& outline = items.outlines[positionOf(k)];
-			outline = outlineOf(charts.mesh, charts.triangles[i]);
-			if (!reachesAsFar(outline, charts.mesh, charts.triangles[i]))
-				outline = borderOf(boxes[i]);
-		});
+	tasksInParallel(static_cast<int>(large.size()), threadsFor(mesh.size() / 32), [&](int k) {
+		const std::size_t i = large[positionOf(k)];
+		Outline& outline = items.outlines[positionOf(k)];
+		outline = outlineOf(mesh, charts.triangles[i]);
+		if (!reachesAsFar(outline, mesh, charts.triangles[i]))
+			outline = borderOf(boxes[i]);
+	});
 	for (const std::size_t i : large) {
 		items.itemOf[i] = items.turns.size();
 		items.turns.push_back(

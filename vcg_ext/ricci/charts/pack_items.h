@@ -14,9 +14,6 @@
 
 namespace ricci {
 
-/// Side that a square needs at least to hold boxes.
-double leastSquare(const std::vector<Box2>& boxes);
-
 /// [box] Translations, never turns or scalings, that bring boxes along the axes close together in about a square and
 /// leave at least \p padding >= 0 between any two. One box stays where it is. The boxes are not empty; they may have
 /// no width or no height.
@@ -25,29 +22,22 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding);
 /// Moves every point p of chart i to motions[i](p).
 void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh);
 
-/// Lays charts along the axes that have an uprightTurn().
-/// \param triangles [chart]
-/// \return [chart] 1 for these
-std::vector<char> turnUpright(const std::vector<std::vector<int>>& triangles, FlatMesh& mesh);
-
-/// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
-/// that the chart's triangles want: to be given a height they lie side by side in two directions.
-/// \param triangles [chart]
-/// \param side of a square that holds charts
-/// \return [box] 1 for those that are thinner than kBoxRoom, which are not turned
-std::vector<char>
-widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<Box2>& boxes);
-
-/// Charts before they are packed.
+/// Charts before they are packed. Arrays by chart.
 struct ChartsToPack
 {
-	const FlatMesh& mesh;
-	const std::vector<std::vector<int>>& triangles; ///< [chart]
-	const std::vector<Box2>& boxes;                 ///< [chart]
-	const std::vector<char>& isThin;                ///< [chart]
-	const std::vector<char>& isUpright;             ///< [chart] turned by right angles only
-	ChartTurns turns;                               ///< of the others
+	std::vector<std::vector<int>> triangles;
+	std::vector<char> isUpright; ///< turned by right angles only
+	std::vector<Box2> boxes;
+	std::vector<char> isThin;            ///< thinner than kBoxRoom: not turned
+	ChartTurns turns = ChartTurns::None; ///< of the others
 };
+
+/// Lays charts along the axes that have an uprightTurn(), if they may be turned. Widens their boxes about the middles,
+/// where a side is shorter than kThinSide times the room that the chart's triangles want: to be given a height they
+/// lie side by side in two directions.
+/// \param turns that the charts allow
+ChartsToPack
+chartsToPack(const PackOptions& options, ChartTurns turns, std::size_t count, FlatMesh& mesh);
 
 /// The square that they are packed into, or one of them.
 struct PackSquare
@@ -75,7 +65,7 @@ struct PackItems
 };
 
 /// The largest charts by their outlines, the others in as few boxes as PackSquare::longestBox allows.
-PackItems packItems(const ChartsToPack& charts, const PackSquare& square);
+PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square);
 
 } // namespace ricci
 

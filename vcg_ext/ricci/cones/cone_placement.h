@@ -37,7 +37,7 @@ inline ConeGoal coneGoal(const ConeOptions& options)
 }
 
 /// What chooseTarget() is asked for, and which cones placeCones() looks for, and where.
-struct TargetRequest : TargetInput
+struct TargetRequest : VertexInput
 {
 	TargetCurvature target = TargetCurvature::Automatic;
 	ConeGoal goal;

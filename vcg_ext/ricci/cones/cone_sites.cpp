@@ -68,13 +68,13 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 				visit(t.target(h), surface.lengths[h.edge()], h);
 		});
 	EdgeArray<char> isPath(t.edgeCount(), 0);
-	for (const Halfedge h : paths.parent)
+	for (const Halfedge h : paths.parents())
 		if (h.isValid())
 			isPath[h.edge()] = 1;
 	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
 	for (const Edge e : t.edges()) {
 		const auto [a, b] = t.ends(e);
-		loopLength[e] = paths.distance[a] + surface.lengths[e] + paths.distance[b];
+		loopLength[e] = paths[a] + surface.lengths[e] + paths[b];
 	}
 	VertexArray<int> uses(t.vertexCount(), 0); // edges of the cut at a vertex
 	EdgeArray<char> isCut(t.edgeCount(), 0);
@@ -86,8 +86,8 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 	for (const Edge e : edgesBesideCotree(t, isPath, loopLength)) {
 		take(e, 1);
 		for (Vertex v : t.ends(e))
-			for (Halfedge h = paths.parent[v]; h.isValid() && !isCut[h.edge()];
-				 h = paths.parent[t.origin(h)])
+			for (Halfedge h = paths.parent(v); h.isValid() && !isCut[h.edge()];
+				 h = paths.parent(t.origin(h)))
 				take(h.edge(), 1);
 	}
 	// The paths have come together before the root.

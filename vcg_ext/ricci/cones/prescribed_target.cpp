@@ -21,16 +21,16 @@ Target zeroTarget(const Topology& topology)
 	return target;
 }
 
-std::vector<Vertex> selectedVertices(const VertexArray<char>& selected)
+std::vector<Vertex> selectedVertices(const std::vector<char>& selected)
 {
 	std::vector<Vertex> vertices;
-	for (const Vertex v : selected.indices())
+	for (std::size_t v = 0; v < selected.size(); ++v)
 		if (selected[v])
-			vertices.push_back(v);
+			vertices.push_back(Vertex(static_cast<int>(v)));
 	return vertices;
 }
 
-std::vector<Vertex> selectedCones(const VertexArray<char>& selected)
+std::vector<Vertex> selectedCones(const std::vector<char>& selected)
 {
 	std::vector<Vertex> cones = selectedVertices(selected);
 	if (cones.empty())
@@ -38,12 +38,12 @@ std::vector<Vertex> selectedCones(const VertexArray<char>& selected)
 	return cones;
 }
 
-void setPrescribed(const TargetInput& input, Target& target)
+void setPrescribed(const VertexInput& input, Target& target)
 {
 	std::size_t notFinite = 0;
-	const double rounding = kPrescribedRounding * input.prescribedPrecision;
-	for (const Vertex v : input.prescribed.indices()) {
-		const double K = input.prescribed[v];
+	const double rounding = kPrescribedRounding * input.precision;
+	for (const Vertex v : IndexRange<Vertex>(static_cast<int>(input.targetCurvature.size()))) {
+		const double K = input.targetCurvature[positionOf(v)];
 		notFinite += !std::isfinite(K);
 		target.curvature[v] = std::abs(K) <= rounding ? 0.0 : K;
 	}
@@ -176,7 +176,7 @@ namespace {
 
 /// \param angle total angle at each selected vertex, radians
 void setConesOfAngle(
-	const Topology& topology, double angle, const VertexArray<char>& selected, Target& target)
+	const Topology& topology, double angle, const std::vector<char>& selected, Target& target)
 {
 	if (!(angle > 0.0) || !std::isfinite(angle))
 		throw InvalidOption(InvalidOption::ConeAngle, angle);
@@ -220,7 +220,7 @@ void checkArea(const Topology& topology, HyperbolicTarget mode, const Target& ta
 } // namespace
 
 Target chooseHyperbolicTarget(
-	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input)
+	const Topology& topology, const HyperbolicTargetOptions& options, const VertexInput& input)
 {
 	Target target = zeroTarget(topology);
 	target.background = Background::HyperbolicPlane;

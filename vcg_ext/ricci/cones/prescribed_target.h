@@ -5,6 +5,7 @@
 #include "../base/points.h"
 #include "../flow/target.h"
 #include "../mesh/elements.h"
+#include "../mesh/surface_mesh.h"
 #include "../mesh/triangulation.h"
 #include "../options.h"
 
@@ -13,28 +14,20 @@
 
 namespace ricci {
 
-/// Values at the vertices of a surface that some targets read.
-struct TargetInput
-{
-	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
-	VertexArray<double> prescribed;   ///< radians, for Prescribed
-	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
-};
-
 /// The target with K = 0 at every vertex of a surface, and no u fixed.
 Target zeroTarget(const Topology& topology);
 
 /// The vertices that are selected, in order.
-std::vector<Vertex> selectedVertices(const VertexArray<char>& selected);
+std::vector<Vertex> selectedVertices(const std::vector<char>& selected);
 
 /// The same for cones, which have to be somewhere.
 /// \throw InvalidOption (NothingSelected) if there is none
-std::vector<Vertex> selectedCones(const VertexArray<char>& selected);
+std::vector<Vertex> selectedCones(const std::vector<char>& selected);
 
 /// Copies prescribed curvatures to the target. Values of the size of rounding are not cones and
 /// become 0.
 /// \throw InadmissibleCurvature (NotFinite) if a value is NaN or infinite
-void setPrescribed(const TargetInput& input, Target& target);
+void setPrescribed(const VertexInput& input, Target& target);
 
 /// Checks what holds for the curvature at each vertex of any metric, flat or hyperbolic, because its
 /// angles are positive: K < 2 pi inside and K < pi on the boundary. Vertices where u is fixed are
@@ -65,7 +58,7 @@ rectangleCorners(const std::vector<Vertex>& loop, const VertexArray<Point3>& pos
 /// \throw InvalidOption if a cone's angle is not positive, or nothing is selected for cones
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
 Target chooseHyperbolicTarget(
-	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input);
+	const Topology& topology, const HyperbolicTargetOptions& options, const VertexInput& input);
 
 } // namespace ricci
 

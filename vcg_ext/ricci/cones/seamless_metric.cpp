@@ -322,101 +322,83 @@ Derivatives derivatives(const FlowResult& flow, const Metric& metric)
 	return by;
 }
 
-class HolonomyRounder
+/// The change of the logarithms of the lengths that removes the errors to first order.
+EdgeArray<double> changeOfLengths(const FlowResult& flow, const Metric& metric)
 {
-public:
-	HolonomyRounder(const FlowResult& flow, double epsilon) : m_flow(flow), m_epsilon(epsilon) {}
+	const Derivatives by = derivatives(flow, metric);
+	const Eigen::VectorXd c = by.gram.ldlt().solve(-metric.errors);
+	EdgeArray<double> change(by.inverseWeights.size(), 0.0);
+	for (std::size_t i = 0; i < by.lengths.size(); ++i)
+		for (const Edge e : change.indices())
+			change[e] += c[Eigen::Index(i)] * by.inverseWeights[e] * by.lengths[i][e];
+	return change;
+}
 
-	/// Goes from \p metric to the one of which the holonomies are multiples of pi / 2, as far as
-	/// Newton's method gets there.
-	void solve(Metric& metric)
-	{
-		for (int step = 0; step < kMaxSteps && metric.error() > kCancelled; ++step) {
-			std::optional<Metric> next = searchAlong(metric, direction(metric));
-			if (!next)
-				return;
-			metric = std::move(*next);
-		}
-	}
-
-	/// Newton's, for the metrics.
-	int steps() const { return m_steps; }
-
-private:
-	/// The change of the logarithms of the lengths that removes the errors to first order.
-	EdgeArray<double> direction(const Metric& metric) const
-	{
-		const Derivatives by = derivatives(m_flow, metric);
-		const Eigen::VectorXd c = by.gram.ldlt().solve(-metric.errors);
-		EdgeArray<double> change(by.inverseWeights.size(), 0.0);
-		for (std::size_t i = 0; i < by.lengths.size(); ++i)
-			for (const Edge e : change.indices())
-				change[e] += c[Eigen::Index(i)] * by.inverseWeights[e] * by.lengths[i][e];
-		return change;
-	}
-
-	/// The metric that is better than \p metric by the longest share of \p change.
-	std::optional<Metric> searchAlong(const Metric& metric, const EdgeArray<double>& change)
-	{
-		double largest = 0.0;
-		for (const double x : change)
-			largest = std::max(largest, std::abs(x));
-		double share = std::min(1.0, kMaxChange / largest);
-		for (int i = 0; i < kMaxHalvings; ++i, share *= 0.5) {
-			std::optional<Metric> next = changed(metric, change, share);
-			if (next && next->error() < metric.error())
-				return next;
-		}
-		return std::nullopt;
-	}
-
-	/// The metric with lengths changed by \p share of \p change, and with the curvatures of the
-	/// target. \return none where it is not found
-	std::optional<Metric>
-	changed(const Metric& metric, const EdgeArray<double>& change, double share)
-	{
-		const CurvatureMap& map = *metric.map;
-		EdgeArray<double> delta = map.delta();
-		for (const Edge e : change.indices()) {
-			if (change[e] == 0.0)
-				continue;
-			const auto [i, j] = map.triangulation().ends(e);
-			const double length = map.lengths()[e] * std::exp(share * change[e]);
-			delta[e] = Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
-			if (!(delta[e] >= 0.0))
-				return std::nullopt;
-		}
-		const std::shared_ptr<CurvatureMap> next =
-			curvatureMap(map.triangulation(), std::move(delta), Background::EuclideanPlane, true);
-		Metric result;
-		result.u = metric.u;
-		const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {
-			return NewtonSolver(*next, m_flow.target.fixed)
-				.solve(result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
-					checkpoint();
-				});
-		});
-		m_steps += solved ? solved->iterations : 0;
-		if (!solved || !solved->converged || next->brokenTriangles() > 0)
+/// The metric with lengths changed by \p share of \p change, and with the curvatures of the target.
+/// \return none where Newton's method does not find it, after \p steps more
+std::optional<Metric> changed(
+	const FlowResult& flow,
+	double epsilon,
+	const Metric& metric,
+	const EdgeArray<double>& change,
+	double share,
+	int& steps)
+{
+	const CurvatureMap& map = *metric.map;
+	EdgeArray<double> delta = map.delta();
+	for (const Edge e : change.indices()) {
+		if (change[e] == 0.0)
+			continue;
+		const auto [i, j] = map.triangulation().ends(e);
+		const double length = map.lengths()[e] * std::exp(share * change[e]);
+		delta[e] = Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
+		if (!(delta[e] >= 0.0))
 			return std::nullopt;
-		result.solved = *solved;
-		result.flips = metric.flips;
-		result.loops = metric.loops;
-		Triangulation t = map.triangulation();
-		for (const Edge e : next->flips()) {
-			result.flips.push_back(e);
-			flip(t, result.loops, e);
-		}
-		result.errors = errorsOf(*next, result.loops);
-		next->releaseWorkSpace();
-		result.map = next;
-		return result;
 	}
+	const std::shared_ptr<CurvatureMap> next =
+		curvatureMap(map.triangulation(), std::move(delta), Background::EuclideanPlane, true);
+	Metric result;
+	result.u = metric.u;
+	const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {
+		return NewtonSolver(*next, flow.target.fixed)
+			.solve(result.u, flow.target.curvature, {epsilon}, [](int, double) { checkpoint(); });
+	});
+	steps += solved ? solved->iterations : 0;
+	if (!solved || !solved->converged || next->brokenTriangles() > 0)
+		return std::nullopt;
+	result.solved = *solved;
+	result.flips = metric.flips;
+	result.loops = metric.loops;
+	Triangulation t = map.triangulation();
+	for (const Edge e : next->flips()) {
+		result.flips.push_back(e);
+		flip(t, result.loops, e);
+	}
+	result.errors = errorsOf(*next, result.loops);
+	next->releaseWorkSpace();
+	result.map = next;
+	return result;
+}
 
-	const FlowResult& m_flow;
-	double m_epsilon;
-	int m_steps = 0;
-};
+/// Goes from \p metric one step of Newton's method towards the one of which the holonomies are multiples of pi / 2,
+/// or a share of it: the longest that makes it better.
+/// \return whether there is one
+bool round(const FlowResult& flow, double epsilon, Metric& metric, int& steps)
+{
+	const EdgeArray<double> change = changeOfLengths(flow, metric);
+	double largest = 0.0;
+	for (const double x : change)
+		largest = std::max(largest, std::abs(x));
+	double share = std::min(1.0, kMaxChange / largest);
+	for (int i = 0; i < kMaxHalvings; ++i, share *= 0.5) {
+		std::optional<Metric> next = changed(flow, epsilon, metric, change, share, steps);
+		if (next && next->error() < metric.error()) {
+			metric = std::move(*next);
+			return true;
+		}
+	}
+	return false;
+}
 
 } // namespace
 
@@ -441,15 +423,17 @@ int roundHolonomy(FlowResult& flow, double epsilon)
 		return 0;
 	Metric metric = metricOf(flow);
 	const double before = metric.error();
-	HolonomyRounder rounder(flow, epsilon);
-	rounder.solve(metric);
+	int steps = 0; // of Newton's method, for the metrics
+	for (int i = 0; i < kMaxSteps && metric.error() > kCancelled; ++i)
+		if (!round(flow, epsilon, metric, steps))
+			break;
 	if (before > 0.0)
 		logLine(
 			"The rotations across seams are up to " + numberText(before, 3) +
 			" from a multiple of a quarter turn, and " + numberText(metric.error(), 3) +
 			" once the metric has changed.");
 	if (metric.map == flow.metric)
-		return rounder.steps();
+		return steps;
 	flow.metric = std::move(metric.map);
 	flow.u = std::move(metric.u);
 	flow.residual = metric.solved.residual;
@@ -457,7 +441,7 @@ int roundHolonomy(FlowResult& flow, double epsilon)
 	flow.curvature = flow.metric->curvature();
 	flow.area = euclideanArea(flow.metric->triangulation(), flow.metric->lengths());
 	flow.flips.insert(flow.flips.end(), metric.flips.begin(), metric.flips.end());
-	return rounder.steps();
+	return steps;
 }
 
 } // namespace ricci

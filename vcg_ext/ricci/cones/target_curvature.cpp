@@ -72,7 +72,7 @@ void setDisk(const EmbeddedSurface& surface, Target& target)
 
 /// The four selected vertices in the order of the loop.
 std::array<Vertex, 4>
-selectedCorners(const std::vector<Vertex>& loop, const VertexArray<char>& selected)
+selectedCorners(const std::vector<Vertex>& loop, const std::vector<char>& selected)
 {
 	const std::size_t count = selectedVertices(selected).size();
 	if (count != 4)
@@ -80,7 +80,7 @@ selectedCorners(const std::vector<Vertex>& loop, const VertexArray<char>& select
 	std::array<Vertex, 4> corners;
 	std::size_t found = 0;
 	for (const Vertex v : loop)
-		if (selected[v])
+		if (selected[positionOf(v)])
 			corners[found++] = v;
 	if (found != 4)
 		throw InvalidOption(InvalidOption::CornersOffBoundary, 0.0, 0.0, found);
@@ -166,9 +166,8 @@ void setPrescribedValues(
 	const double defect = wanted - sum;
 	// Each value is at best a full angle less angles, all in double.
 	const double angles = 2 * kPi * static_cast<double>(target.curvature.size());
-	if (std::abs(defect) >
-		kPrescribedRounding * (request.prescribedPrecision * (magnitude + 2 * kPi) +
-							   std::numeric_limits<double>::epsilon() * angles))
+	if (std::abs(defect) > kPrescribedRounding * (request.precision * (magnitude + 2 * kPi) +
+												  std::numeric_limits<double>::epsilon() * angles))
 		throw InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, sum, wanted);
 	if (magnitude > 0.0)
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();

@@ -18,7 +18,7 @@ namespace ricci {
 
 namespace {
 
-using NodePaths = ShortestPaths<Vertex, Halfedge>;
+using NodePaths = SearchFront<Vertex, Halfedge>;
 
 /// The edges of a surface that a cut may use, as a graph in which every boundary loop is drawn
 /// together into one node. A node has the number of a vertex: its own, or one of its loop.
@@ -98,7 +98,7 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 	const NodePaths paths = graph.pathsFrom(roots);
 	EdgeArray<char> isCut(t.edgeCount(), 0);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
-	for (const Halfedge h : paths.parent)
+	for (const Halfedge h : paths.parents())
 		if (h.isValid()) {
 			isCut[h.edge()] = 1;
 			joined.merge(graph.node(t.origin(h)), graph.node(t.target(h)));
@@ -109,7 +109,7 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 	for (const Edge e : t.edges()) {
 		const Vertex a = graph.from(e), b = graph.to(e);
 		if (graph.isUsable(e))
-			length[e] = paths.distance[a] + graph.cost(e) + paths.distance[b];
+			length[e] = paths[a] + graph.cost(e) + paths[b];
 		if (length[e] < kInfinity && joined.find(a) != joined.find(b))
 			connections.push_back({length[e], e});
 	}
@@ -190,8 +190,8 @@ NodePaths pathsAlongEdges(const Triangulation& t, const EdgeArray<double>& lengt
 Vertex farthest(const NodePaths& paths)
 {
 	Vertex far(0);
-	for (const Vertex v : paths.distance.indices())
-		if (paths.distance[v] > paths.distance[far])
+	for (const Vertex v : paths.distances().indices())
+		if (paths[v] > paths[far])
 			far = v;
 	return far;
 }
@@ -202,9 +202,9 @@ Vertex centreOf(const Triangulation& t, const EdgeArray<double>& lengths)
 	Vertex end = farthest(pathsAlongEdges(t, lengths, Vertex(0)));
 	const NodePaths paths = pathsAlongEdges(t, lengths, end);
 	end = farthest(paths);
-	const double half = 0.5 * paths.distance[end];
-	while (paths.distance[end] > half)
-		end = t.origin(paths.parent[end]);
+	const double half = 0.5 * paths[end];
+	while (paths[end] > half)
+		end = t.origin(paths.parent(end));
 	return end;
 }
 
@@ -246,7 +246,7 @@ CutGraph
 cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones)
 {
 	const NodePaths paths = pathsAlongEdges(t, lengths, centreOf(t, lengths));
-	EdgeArray<char> isCut = treeAround(t, paths.distance);
+	EdgeArray<char> isCut = treeAround(t, paths.distances());
 	for (const Edge e : t.edges())
 		isCut[e] = !t.isBoundary(e) && !isCut[e];
 	const ContractedGraph graph(t, lengths);

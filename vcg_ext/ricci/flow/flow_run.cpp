@@ -178,25 +178,26 @@ initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Flow
 	return packing;
 }
 
-void FlowProgress::operator()(int step, double residual)
+FlowProgress flowProgress(double epsilon, std::vector<FlowState>& states)
 {
-	const bool begins = step <= m_step;
-	m_step = step;
-	const int count = m_states.empty() ? 0 : m_states.back().step + (begins ? 0 : 1);
-	const bool isKnown = begins && !m_states.empty() && m_states.back().residual == residual;
-	m_states.push_back({0, count, residual});
-	if (m_first < 0.0)
-		m_first = std::max(residual, 10 * m_epsilon);
-	const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
-							 numberText(residual, 3, std::chars_format::scientific);
-	if (!isKnown)
-		logLine(line);
-	advance(
-		std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
+	return [epsilon, &states, last = 0, first = -1.0](int step, double residual) mutable {
+		const bool begins = step <= last;
+		last = step;
+		const int count = states.empty() ? 0 : states.back().step + (begins ? 0 : 1);
+		const bool isKnown = begins && !states.empty() && states.back().residual == residual;
+		states.push_back({0, count, residual});
+		if (first < 0.0)
+			first = std::max(residual, 10 * epsilon);
+		const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
+								 numberText(residual, 3, std::chars_format::scientific);
+		if (!isKnown)
+			logLine(line);
+		advance(std::log(first / std::max(residual, epsilon)) / std::log(first / epsilon), line);
+	};
 }
 
 FlowRun::FlowRun(
-	const EmbeddedSurface& surface, const FlowOptions& options, FlowProgress& progress) :
+	const EmbeddedSurface& surface, const FlowOptions& options, const FlowProgress& progress) :
 		m_surface(surface),
 		m_options(options), m_progress(progress)
 {
@@ -207,7 +208,7 @@ FlowRun::FlowRun(
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	FlowProgress& progress) :
+	const FlowProgress& progress) :
 		FlowRun(surface, options, progress)
 {
 	m_result.input = surface.triangulation;
@@ -220,7 +221,7 @@ FlowRun FlowRun::onDouble(
 	const EmbeddedSurface& surface,
 	const Target& target,
 	const FlowOptions& options,
-	FlowProgress& progress)
+	const FlowProgress& progress)
 {
 	FlowRun run(surface, options, progress);
 	DoubleSurface d = doubleOf(surface.triangulation);

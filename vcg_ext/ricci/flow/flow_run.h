@@ -9,6 +9,7 @@
 #include "ricci_flow.h"
 #include "target.h"
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -26,27 +27,14 @@ std::vector<double> inscribedArcs(const std::vector<double>& sides);
 InitialPacking
 initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options);
 
-/// Tells the task of each Newton step of a flow. The residual falls by orders of magnitude, so each step
-/// closes a part of the distance to epsilon on the logarithmic scale.
-class FlowProgress
-{
-public:
-	/// Every state that is passed is appended to \p states, with the steps counted on from those there.
-	FlowProgress(double epsilon, std::vector<FlowState>& states) :
-			m_epsilon(epsilon), m_states(states)
-	{
-	}
+/// Hears of each Newton step of a flow: its number, where one that is no larger than the last begins another solve,
+/// which may go on where that ended; and the residual before it.
+using FlowProgress = std::function<void(int step, double residual)>;
 
-	/// \param step of the flow; a number that is no larger than the last one begins another solve, which
-	/// may go on where that ended
-	/// \param residual before it
-	void operator()(int step, double residual);
-
-private:
-	double m_epsilon, m_first = -1.0;
-	std::vector<FlowState>& m_states;
-	int m_step = 0;
-};
+/// Tells the task. The residual falls by orders of magnitude, so each step closes a part of the distance to epsilon on
+/// the logarithmic scale.
+/// \param states get every state, with the steps counted on from those there
+FlowProgress flowProgress(double epsilon, std::vector<FlowState>& states);
 
 /// One run of the flow on one surface, or on its double.
 class FlowRun
@@ -59,14 +47,14 @@ public:
 		InitialPacking start,
 		const Target& target,
 		const FlowOptions& options,
-		FlowProgress& progress);
+		const FlowProgress& progress);
 
 	/// On the double of \p surface, with its own, symmetric initial packing.
 	static FlowRun onDouble(
 		const EmbeddedSurface& surface,
 		const Target& target,
 		const FlowOptions& options,
-		FlowProgress& progress);
+		const FlowProgress& progress);
 
 	/// Bounds the Newton steps of one solve.
 	void limitSteps(int most) { m_maxSteps = most; }
@@ -102,7 +90,8 @@ public:
 	NotConverged failure() const;
 
 private:
-	FlowRun(const EmbeddedSurface& surface, const FlowOptions& options, FlowProgress& progress);
+	FlowRun(
+		const EmbeddedSurface& surface, const FlowOptions& options, const FlowProgress& progress);
 	void begin();
 	VertexVector startU() const;
 	NewtonResult solveOnCircle();
@@ -114,7 +103,7 @@ private:
 
 	const EmbeddedSurface& m_surface; // has the lowest numbers of its double
 	const FlowOptions& m_options;
-	FlowProgress& m_progress;
+	const FlowProgress& m_progress;
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;          // its target is that on the double, if there is one
 	VertexArray<Vertex> m_mirror; // [vertex of a double] its image; empty on the surface

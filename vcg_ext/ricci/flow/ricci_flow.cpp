@@ -34,7 +34,7 @@ FlowResult runRicciFlow(
 	const FlowOptions& options,
 	std::vector<FlowState>& states)
 {
-	FlowProgress progress(options.epsilon, states);
+	const FlowProgress progress = flowProgress(options.epsilon, states);
 	FlowRun run(surface, std::move(start), target, options, progress);
 	const bool flips = options.method == Method::IntrinsicFlips;
 	if (!flips || surface.topology.loops.empty()) {

@@ -206,7 +206,7 @@ SwappedFlow flowWithEdgeSwaps(
 		InitialPacking start = initialPacking(surface, options);
 		const Target target = chooseTarget(surface, start);
 		EdgeSwapper swapper(surface.positions, start.radii);
-		FlowProgress progress(options.epsilon, states);
+		const FlowProgress progress = flowProgress(options.epsilon, states);
 		FlowRun run(surface, std::move(start), target, options, progress);
 		run.operate([&](CurvatureMap& map) { return swapper(map); });
 		try {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,76 +14,50 @@
 
 namespace ricci {
 
-namespace {
-
-/// Isometries by their images of 0 on the hyperboloid, in square cells as wide as the tolerance.
-class TileIndex
+Tiling tiling(const std::vector<DiskIsometry>& sides, int rings, int maxCount)
 {
-public:
-	/// \p tiles may grow later; numbers refer to it.
-	explicit TileIndex(const std::vector<DiskIsometry>& tiles) : m_tiles(tiles) {}
-
-	void insert(std::size_t tile) { m_cells.emplace(cellOf(m_tiles[tile]), tile); }
-
-	bool contains(const DiskIsometry& m) const
-	{
-		const Cell centre = cellOf(m);
-		for (std::int64_t i = -1; i <= 1; ++i)
-			for (std::int64_t j = -1; j <= 1; ++j) {
-				const auto range = m_cells.equal_range({centre.first + i, centre.second + j});
-				for (auto known = range.first; known != range.second; ++known) {
-					const DiskIsometry difference = m_tiles[known->second].inverse() * m;
-					if (difference.distanceFromIdentity() < kSameTile)
-						return true;
-				}
-			}
-		return false;
-	}
-
-private:
+	Tiling result;
+	// Copies by the image of 0 on the hyperboloid, in square cells as wide as the tolerance.
 	using Cell = std::pair<std::int64_t, std::int64_t>;
-
-	static Cell cellOf(const DiskIsometry& m)
-	{
+	std::multimap<Cell, std::size_t> cells;
+	const auto cellOf = [](const DiskIsometry& m) -> Cell {
 		const std::complex<double> x = 2.0 * m.a * m.b;
 		return {
 			static_cast<std::int64_t>(std::floor(x.real() / kSameTile)),
 			static_cast<std::int64_t>(std::floor(x.imag() / kSameTile))};
-	}
-
-	const std::vector<DiskIsometry>& m_tiles;
-	std::multimap<Cell, std::size_t> m_cells;
-};
-
-} // namespace
-
-Tiling tiling(const std::vector<DiskIsometry>& sides, int rings, int maxCount)
-{
-	Tiling result;
-	result.deck.push_back(DiskIsometry());
-	result.ring.push_back(0);
-	TileIndex known(result.deck);
-	known.insert(0);
-	for (std::size_t next = 0; next < result.deck.size(); ++next) {
-		if (result.ring[next] == rings)
-			break;
+	};
+	const auto add = [&](const DiskIsometry& m, int ring) {
+		cells.emplace(cellOf(m), result.deck.size());
+		result.deck.push_back(m);
+		result.ring.push_back(ring);
+	};
+	const auto isKnown = [&](const DiskIsometry& m) {
+		const auto [x, y] = cellOf(m);
+		for (std::int64_t i = -1; i <= 1; ++i)
+			for (std::int64_t j = -1; j <= 1; ++j) {
+				const auto [first, end] = cells.equal_range({x + i, y + j});
+				if (std::any_of(first, end, [&](const auto& known) {
+						const DiskIsometry difference = result.deck[known.second].inverse() * m;
+						return difference.distanceFromIdentity() < kSameTile;
+					}))
+					return true;
+			}
+		return false;
+	};
+	add(DiskIsometry(), 0);
+	for (std::size_t next = 0; next < result.deck.size() && result.ring[next] != rings; ++next)
 		for (const DiskIsometry& side : sides) {
 			const DiskIsometry m = (result.deck[next] * side).normalised();
 			const double distance = m.displacement();
 			// Farther out than any known tile a cell may have no number.
-			const bool mayBeKnown = distance <= kMaxTileDistance + kSameTile;
-			if (mayBeKnown && known.contains(m))
+			if (distance <= kMaxTileDistance + kSameTile && isKnown(m))
 				continue;
-			if (!(distance <= kMaxTileDistance) ||
-				result.deck.size() >= static_cast<std::size_t>(maxCount)) {
+			if (distance <= kMaxTileDistance &&
+				result.deck.size() < static_cast<std::size_t>(maxCount))
+				add(m, result.ring[next] + 1);
+			else
 				result.complete = false;
-				continue;
-			}
-			result.deck.push_back(m);
-			result.ring.push_back(result.ring[next] + 1);
-			known.insert(result.deck.size() - 1);
 		}
-	}
 	return result;
 }
 

@@ -37,34 +37,26 @@ ExtendedIsometry turned(const ExtendedIsometry& frame, double length)
 	return frame * ExtendedIsometry::translation(length) * ExtendedIsometry::rotation(kExtendedPi);
 }
 
-/// The point of the disk for which the weighted mean of cosh(distance) to some points is least: the direction
-/// of their weighted mean on the hyperboloid x0^2 - |x|^2 = 1.
-class DiskMean
+/// Moves a point of the disk to 0 along the straight line between them: that for which the weighted mean of
+/// cosh(distance) to some points is least, the direction of their weighted mean on the hyperboloid
+/// x0^2 - |x|^2 = 1. The identity where there is no weight, or the points are farther from each other than extended
+/// precision can tell.
+/// \param forPoints forPoints(add) calls add(weight, frame) for the points, each the origin of a frame
+template<class ForPoints>
+ExtendedIsometry meanToZero(const ForPoints& forPoints)
 {
-public:
-	/// The origin of a frame.
-	void add(double weight, const ExtendedIsometry& frame)
-	{
-		m_x0 += weight * (norm(frame.a) + norm(frame.b));
-		m_x += 2 * weight * (frame.a * frame.b);
-	}
-
-	/// Moves the mean to 0 along the straight line between them. The identity where there is no weight, or the
-	/// points are farther from each other than extended precision can tell.
-	ExtendedIsometry toZero() const
-	{
-		const DoubleDouble r = abs(m_x);
-		if (!(m_x0 > r))
-			return {};
-		// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
-		return ExtendedIsometry::translationTo(m_x / (m_x0 + sqrt((m_x0 - r) * (m_x0 + r))))
-			.inverse();
-	}
-
-private:
-	DoubleDouble m_x0; // of the mean, up to the sum of the weights
-	ExtendedComplex m_x;
-};
+	DoubleDouble x0; // of the mean, up to the sum of the weights
+	ExtendedComplex x;
+	forPoints([&](double weight, const ExtendedIsometry& frame) {
+		x0 += weight * (norm(frame.a) + norm(frame.b));
+		x += 2 * weight * (frame.a * frame.b);
+	});
+	const DoubleDouble r = abs(x);
+	if (!(x0 > r))
+		return {};
+	// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
+	return ExtendedIsometry::translationTo(x / (x0 + sqrt((x0 - r) * (x0 + r)))).inverse();
+}
 
 /// Lays out one surface.
 class DiskUnfolding
@@ -101,16 +93,15 @@ public:
 	/// Moves the middle to 0. \return the triangle next to it
 	Face moveMiddleToZero(HyperbolicLayout& layout) const
 	{
-		DiskMean middle;
-		for (const Face f : m_t.faces()) {
-			checkpointNowAndThen(positionOf(f));
-			const auto side = m_t.halfedges(f);
-			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
-			const double area = hyperbolicArea(sidesOf(m_t, m_lengths, f));
-			for (const Halfedge h : side)
-				middle.add(area, layout[h]);
-		}
-		const ExtendedIsometry back = middle.toZero();
+		const ExtendedIsometry back = meanToZero([&](const auto& add) {
+			for (const Face f : m_t.faces()) {
+				checkpointNowAndThen(positionOf(f));
+				// By the sides: what the angles are short of pi is rounding where triangles are tiny.
+				const double area = hyperbolicArea(sidesOf(m_t, m_lengths, f));
+				for (const Halfedge h : m_t.halfedges(f))
+					add(area, layout[h]);
+			}
+		});
 		Face nearest(0);
 		DoubleDouble minSpread;
 		for (const Face f : m_t.faces()) {
@@ -162,11 +153,11 @@ private:
 
 ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles)
 {
-	DiskMean mean;
-	for (const int f : triangles)
-		for (const Point2& p : mesh.at(f))
-			mean.add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
-	return mean.toZero();
+	return meanToZero([&](const auto& add) {
+		for (const int f : triangles)
+			for (const Point2& p : mesh.at(f))
+				add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
+	});
 }
 
 HyperbolicLayout layOutInDisk(

@@ -46,10 +46,14 @@ flatMeshOf(const Component& component, const FlowDomain& domain, const PlanarLay
 	FlatMesh flat;
 	flat.place = layout.points;
 	flat.vertices = Array<Triangle>(component.triangles);
+	const EdgeArray<double>& lengths = domain.surface.lengths;
 	for (const int f : flat.vertices.indices()) {
 		const auto h = domain.halfedges(Face(f));
 		flat.points.push_back({layout.wedge[h[0]], layout.wedge[h[1]], layout.wedge[h[2]]});
-		flat.lengths.push_back(component.sides(Face(f)));
+		flat.lengths.push_back(
+			domain.corners.empty()
+				? std::array{lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]}
+				: component.sides(Face(f)));
 		flat.face.push_back(f);
 	}
 	flat.isDiagonal = sidesOf(component.diagonal);

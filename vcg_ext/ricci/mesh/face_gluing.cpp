@@ -269,15 +269,17 @@ void shortenLoop(const Adjacency<int, Link>& graph, int root, Array<Place>& plac
 } // namespace
 
 std::vector<Page> pagesOf(
-	const Array<Point3>& positions, const Array<Triangle>& triangles, ItemRange<const Corner> sides)
+	const std::vector<Point3>& positions,
+	const Array<Triangle>& triangles,
+	ItemRange<const Corner> sides)
 {
 	const auto [a, b] = std::minmax({triangles[sides[0]], triangles[sides[0].next()]});
-	const Point3 &low = positions[a], &high = positions[b];
+	const Point3 &low = positions[positionOf(a)], &high = positions[positionOf(b)];
 	const Point3 axis = normalized(high - low);
 	std::vector<Page> pages;
 	Point3 first{0, 0, 0};
 	for (const Corner side : sides) {
-		const Point3 arm = normalized(positions[triangles[side.previous()]] - low);
+		const Point3 arm = normalized(positions[positionOf(triangles[side.previous()])] - low);
 		const Point3 away = arm - dot(arm, axis) * axis;
 		if (dot(first, first) == 0.0)
 			first = away;
@@ -289,7 +291,7 @@ std::vector<Page> pagesOf(
 	return pages;
 }
 
-FaceGluing glueFaces(const Array<Point3>& positions, const Array<Triangle>& triangles)
+FaceGluing glueFaces(const std::vector<Point3>& positions, const Array<Triangle>& triangles)
 {
 	FaceGluing gluing;
 	gluing.glued.assign(3 * triangles.size(), Corner());
@@ -372,7 +374,7 @@ FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray
 }
 
 void cutOneSided(
-	const Array<Point3>& positions,
+	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const FacePartition& partition,
 	OneSidedCut cut,
@@ -384,9 +386,10 @@ void cutOneSided(
 		return;
 	}
 	const auto inSpace = [&](Corner s) {
-		return distance(positions[triangles[s]], positions[triangles[s.next()]]);
+		return distance(
+			positions[positionOf(triangles[s])], positions[positionOf(triangles[s.next()])]);
 	};
-	Array<double> price(positions.size(), 0.0); // half that of passing a vertex
+	Array<double> price(static_cast<int>(positions.size()), 0.0); // half that of passing a vertex
 	if (cut == OneSidedCut::ClearOfBoundary) {
 		double all = 0.0;
 		for (const Corner s : glued.indices())
@@ -415,7 +418,7 @@ void cutOneSided(
 		if (const Corner t = glued[s];
 			t > s && partition.isOneSided[componentOf(s)] && triangles[s] == triangles[t])
 			add(s, incoherent[componentOf(s)]);
-	const Adjacency<int, Link> graph = orientationGraph(positions.size(), triangles, glued, length);
+	const Adjacency<int, Link> graph = orientationGraph(price.size(), triangles, glued, length);
 	Array<Place> places(graph.keyCount());
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
 	const std::vector<Corner>& sides = partition.contradicted.values();

@@ -31,7 +31,7 @@ struct Page
 /// The pages of an edge, whose ends are those of its first side. Equal triangles have the same angle, bit for bit.
 /// \param sides have their ends at the same two places
 std::vector<Page> pagesOf(
-	const Array<Point3>& positions,
+	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	ItemRange<const Corner> sides);
 
@@ -43,7 +43,7 @@ std::vector<Page> pagesOf(
 /// three vertices are never glued to each other: they belong to different sheets, in the order of
 /// their numbers.
 /// \pre no triangle uses a vertex twice
-FaceGluing glueFaces(const Array<Point3>& positions, const Array<Triangle>& triangles);
+FaceGluing glueFaces(const std::vector<Point3>& positions, const Array<Triangle>& triangles);
 
 /// Connected pieces of glued triangles, and an orientation of each.
 struct FacePartition
@@ -74,7 +74,7 @@ enum class OneSidedCut {
 /// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
 /// \pre an edge of glued triangles is determined by its vertices (see OpenedMesh)
 void cutOneSided(
-	const Array<Point3>& positions,
+	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const FacePartition& partition,
 	OneSidedCut cut,
@@ -111,7 +111,7 @@ struct SplitVertices
 /// \param part see SurfaceMesh
 /// \pre no triangle uses a vertex twice; positions are finite
 SplitVertices findSplitVertices(
-	const Array<Point3>& positions,
+	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const std::vector<Corner>& alone,
 	const std::vector<int>& part);

@@ -62,10 +62,7 @@ void checkElements(const SurfaceMesh& mesh)
 class Opening
 {
 public:
-	explicit Opening(const SurfaceMesh& input) : m_input(input), m_positions(input.positions)
-	{
-		takeFaces();
-	}
+	explicit Opening(const SurfaceMesh& input) : m_input(input) { takeFaces(); }
 
 	/// \throw InvalidMesh UnequalSides
 	/// \pre cutEdges()
@@ -80,10 +77,10 @@ public:
 
 	void cutEdges(JoinSplitVertices join)
 	{
-		FaceGluing gluing = glueFaces(m_positions, m_triangles);
+		FaceGluing gluing = glueFaces(m_input.positions, m_triangles);
 		const bool mayJoin = join != JoinSplitVertices::Never && m_input.lengths.empty();
 		if (mayJoin && joinVertices(join, gluing))
-			gluing = glueFaces(m_positions, m_triangles);
+			gluing = glueFaces(m_input.positions, m_triangles);
 		m_glued = std::move(gluing.glued);
 		m_opened.cutEdges = gluing.cutEdges;
 		m_opened.duplicateFaces = gluing.duplicateFaces;
@@ -101,13 +98,6 @@ public:
 			return;
 		markHoles();
 		m_across.assign(m_glued.size(), Corner());
-		const auto inInput = [&](Corner c) {
-			return Corner(m_opened.face[positionOf(c.face())], static_cast<int>(c.index()));
-		};
-		const auto isMarked = [&](Corner side) {
-			const Corner own = inInput(side);
-			return !m_input.seam.empty() && m_input.seam[positionOf(own.face())][own.index()] != 0;
-		};
 		const auto jumps = jumpsOf(m_input.map);
 		const auto mapJumps = [&](Corner a, Corner b) {
 			const bool sameWay = m_triangles[a] == m_triangles[b];
@@ -115,12 +105,13 @@ public:
 				   (jumps(inInput(a), inInput(sameWay ? b : b.next())) ||
 					jumps(inInput(a.next()), inInput(sameWay ? b.next() : b)));
 		};
-		Array<Point3> normals;
-		if (opensSharp)
-			normals = normalsOf(m_positions.values(), m_triangles.values(), m_glued);
+		const Array<Point3> normals =
+			opensSharp ? normalsOf(m_input.positions, m_triangles.values(), m_glued)
+					   : Array<Point3>();
 		const auto isSharp = [&](Corner side) {
 			const Corner other = m_glued[side];
-			if (!opensSharp || !other.isValid() || isDiagonal(side) || isDiagonal(other))
+			if (!opensSharp || !other.isValid() || isMarked(m_input.diagonal, side) ||
+				isMarked(m_input.diagonal, other))
 				return false;
 			const bool sameWay = m_triangles[side] == m_triangles[other];
 			const Point3& n = normals[other.face()];
@@ -129,7 +120,7 @@ public:
 		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
 			bool opens = false;
 			if (std::any_of(edge.begin(), edge.end(), [&](Corner side) {
-					return isMarked(side) || mapJumps(edge[0], side) || isSharp(side);
+					return isMarked(m_input.seam, side) || mapJumps(edge[0], side) || isSharp(side);
 				}))
 				for (const Corner side : edge)
 					opens = open(side) || opens;
@@ -148,7 +139,7 @@ public:
 		for (int cuts = 0; !m_partition.contradicted.empty(); ++cuts) {
 			const bool isLast = cuts == kMaxOneSidedCuts;
 			cutOneSided(
-				m_places, m_corners, m_partition, isLast ? OneSidedCut::Everywhere : cut, m_glued);
+				places(), m_corners, m_partition, isLast ? OneSidedCut::Everywhere : cut, m_glued);
 			do
 				splitVertices();
 			while (!separateEdges());
@@ -208,7 +199,7 @@ public:
 				if (m_across[side].isValid())
 					m_opened.hasSeam[positionOf(m_partition.component[side.face()])] = 1;
 		}
-		m_opened.mesh.positions = std::move(m_places.values());
+		m_opened.mesh.positions = places();
 		m_opened.mesh.triangles = std::move(m_corners.values());
 		m_opened.component = FaceArray<int>(std::move(m_partition.component.values()));
 		m_opened.reversed = FaceArray<char>(std::move(m_partition.reversed.values()));
@@ -247,7 +238,7 @@ private:
 	bool joinVertices(JoinSplitVertices join, const FaceGluing& gluing)
 	{
 		const auto splitAt = [&](const std::vector<Corner>& sides) {
-			return findSplitVertices(m_positions, m_triangles, sides, m_input.part);
+			return findSplitVertices(m_input.positions, m_triangles, sides, m_input.part);
 		};
 		const bool all = join == JoinSplitVertices::Always;
 		const auto [wanted, others] = sidesToJoin(m_triangles, gluing.alone, m_input.part, all);
@@ -288,12 +279,11 @@ private:
 	void splitVertices()
 	{
 		DisjointSetsOf<Corner> fans = fansOf(m_glued);
-		m_places = m_positions;
 		m_corners = m_triangles;
 		m_opened.vertex.resize(m_input.positions.size());
 		std::iota(m_opened.vertex.begin(), m_opened.vertex.end(), 0);
 		CornerArray<int> copy(m_glued.size(), -1); // [fan]
-		Array<char> uses(m_positions.size(), 0);   // fans of each vertex: none, one, more
+		Array<char> uses(m_vertexCount, 0);        // fans of each vertex: none, one, more
 		for (const Corner corner : m_glued.indices()) {
 			const int v = m_triangles[corner];
 			int& own = copy[fans.find(corner)];
@@ -302,9 +292,8 @@ private:
 				uses[v] = 1;
 			}
 			else if (own < 0) {
-				own = m_places.size();
+				own = static_cast<int>(m_opened.vertex.size());
 				m_opened.vertex.push_back(v);
-				m_places.push_back(m_positions[v]);
 				uses[v] = 2;
 			}
 			m_corners[corner] = own;
@@ -320,7 +309,7 @@ private:
 			if (m_across[s].isValid())
 				glued[s] = m_across[s];
 		DisjointSetsOf<Corner> fans = fansOf(glued);
-		Array<Corner> fanAt(m_positions.size()); // [vertex] the first that is met
+		Array<Corner> fanAt(m_vertexCount); // [vertex] the first that is met
 		std::set<int> split;
 		for (const Corner corner : glued.indices()) {
 			const int v = m_triangles[corner];
@@ -359,11 +348,14 @@ private:
 				loops.find(s) != longest[partition.component[s.face()]];
 	}
 
-	/// Whether a side is inside a polygon.
-	bool isDiagonal(Corner side) const
+	Corner inInput(Corner c) const
 	{
-		return !m_input.diagonal.empty() &&
-			   m_input.diagonal[positionOf(m_opened.face[positionOf(side.face())])][side.index()];
+		return {m_opened.face[positionOf(c.face())], static_cast<int>(c.index())};
+	}
+
+	bool isMarked(const SideMarks& ofInput, Corner side) const
+	{
+		return !ofInput.empty() && ofInput[positionOf(inInput(side).face())][side.index()] != 0;
 	}
 
 	/// Opens a side for a seam.
@@ -392,7 +384,7 @@ private:
 			return std::minmax(m_corners[side], m_corners[side.next()]);
 		};
 		Array<Way> ways;
-		Array<int> wayAt(m_places.size(), -1); // [vertex]
+		Array<int> wayAt(static_cast<int>(m_opened.vertex.size()), -1); // [vertex]
 		for (const Corner s : m_across.indices()) {
 			const Corner t = m_across[s];
 			const auto [a, b] = ends(s);
@@ -427,9 +419,10 @@ private:
 	/// Of the angle between the ways from \p a to \p b and on to \p c; 0 where they have no direction.
 	double cosineOfTurn(int a, int b, int c) const
 	{
-		const Point3 &p = m_places[a], &q = m_places[b], &r = m_places[c];
-		const double lengths = distance(p, q) * distance(q, r);
-		return lengths > 0.0 ? dot(q - p, r - q) / lengths : 0.0;
+		const auto placeOf = [&](int v) { return at(m_opened.vertex[positionOf(v)]); };
+		const Point3 p = placeOf(a), q = placeOf(b), r = placeOf(c);
+		const double size = distance(p, q) * distance(q, r);
+		return size > 0.0 ? dot(q - p, r - q) / size : 0.0;
 	}
 
 	/// Cuts edges that share both vertices with another edge: first both edges, and where that has been
@@ -460,7 +453,6 @@ private:
 	[[noreturn]] void throwNoArea() const
 	{
 		for (const Triangle& t : m_input.triangles) {
-			const auto at = [&](int v) { return m_input.positions[positionOf(v)]; };
 			const Point3 a = at(t[1]) - at(t[0]), b = at(t[2]) - at(t[0]), normal = cross(a, b);
 			const double longest = std::max({length(a), length(b), length(b - a)});
 			if (!(std::hypot(normal[0], normal[1], normal[2]) > kCancelled * longest * longest))
@@ -485,7 +477,7 @@ private:
 		Array<double> area(m_partition.componentCount, 0.0), longest = area;
 		for (const int f : m_triangles.indices()) {
 			const Triangle& t = m_triangles[f];
-			const Point3 &p = m_positions[t[0]], &q = m_positions[t[1]], &r = m_positions[t[2]];
+			const Point3 &p = at(t[0]), &q = at(t[1]), &r = at(t[2]);
 			const Point3 normal = cross(q - p, r - p);
 			const int c = m_partition.component[f];
 			area[c] = std::max(area[c], std::hypot(normal[0], normal[1], normal[2]));
@@ -504,15 +496,23 @@ private:
 	double lengthOf(Corner side) const
 	{
 		if (!m_input.lengths.empty())
-			return m_input
-				.lengths[positionOf(m_opened.face[positionOf(side.face())])][side.index()];
-		return distance(m_positions[m_triangles[side]], m_positions[m_triangles[side.next()]]);
+			return m_input.lengths[positionOf(inInput(side).face())][side.index()];
+		return distance(at(m_triangles[side]), at(m_triangles[side.next()]));
+	}
+
+	const Point3& at(int v) const { return m_input.positions[positionOf(v)]; } // of the input
+	/// [vertex of the opened mesh]
+	std::vector<Point3> places() const
+	{
+		std::vector<Point3> places;
+		for (const int v : m_opened.vertex)
+			places.push_back(at(v));
+		return places;
 	}
 
 	const SurfaceMesh& m_input;
-	Array<Point3> m_positions;    // of the input
+	const int m_vertexCount = static_cast<int>(m_input.positions.size());
 	Array<Triangle> m_triangles;  // those not degenerate, with the vertices of the input
-	Array<Point3> m_places;       // of the opened mesh
 	Array<Triangle> m_corners;    // of the opened mesh
 	CornerArray<Corner> m_glued;  // see FaceGluing
 	CornerArray<Corner> m_across; // the side beyond a seam, or none; empty without seams

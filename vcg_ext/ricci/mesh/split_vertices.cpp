@@ -15,19 +15,22 @@ namespace {
 
 /// Numbers of places, in their order: vertices of one part with equal coordinates (0 = -0) have one.
 Array<int> placesOf(
-	const Array<Point3>& positions, const std::vector<int>& part, const std::vector<int>& vertices)
+	const std::vector<Point3>& positions,
+	const std::vector<int>& part,
+	const std::vector<int>& vertices)
 {
 	const auto partOf = [&](int v) { return part.empty() ? 0 : part[positionOf(v)]; };
+	const auto at = [&](int v) { return positions[positionOf(v)]; };
 	std::vector<int> order = vertices;
 	std::sort(order.begin(), order.end(), [&](int a, int b) {
-		if (positions[a] != positions[b])
-			return positions[a] < positions[b];
+		if (at(a) != at(b))
+			return at(a) < at(b);
 		return partOf(a) != partOf(b) ? partOf(a) < partOf(b) : a < b;
 	});
-	Array<int> place(positions.size(), -1);
+	Array<int> place(static_cast<int>(positions.size()), -1);
 	int last = -1, count = -1;
 	for (const int v : order) {
-		count += last < 0 || positions[v] != positions[last] || partOf(v) != partOf(last);
+		count += last < 0 || at(v) != at(last) || partOf(v) != partOf(last);
 		place[v] = count;
 		last = v;
 	}
@@ -87,7 +90,7 @@ std::array<std::vector<Corner>, 2> sidesToJoin(
 }
 
 SplitVertices findSplitVertices(
-	const Array<Point3>& positions,
+	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const std::vector<Corner>& alone,
 	const std::vector<int>& part)
@@ -111,7 +114,7 @@ SplitVertices findSplitVertices(
 		byPlace.push_back({place[t[0]], place[t[1]], place[t[2]]});
 	}
 	SplitVertices split;
-	DisjointSets sets(positions.size());
+	DisjointSets sets(place.size());
 	std::vector<Corner> sides;
 	std::vector<int> layer;
 	Sides(byPlace).forEdges([&](const auto& edge) {
@@ -141,7 +144,7 @@ SplitVertices findSplitVertices(
 			split.joined.push_back({p.side, q.side});
 		}
 	});
-	for (const int v : positions.indices())
+	for (const int v : place.indices())
 		split.vertex.push_back(sets.find(v));
 	return split;
 }

@@ -56,6 +56,15 @@ struct SurfaceMesh
 	std::vector<int> part = {};
 };
 
+/// Values at the vertices of the mesh that some targets read. Empty where the mode has no use for
+/// them. Vertices that are joined (JoinSplitVertices) are selected if one of them is, and have the target of the first.
+struct VertexInput
+{
+	std::vector<char> selected;          ///< Rectangle, SelectedCones
+	std::vector<double> targetCurvature; ///< Prescribed, radians
+	double precision = 2.3e-16;          ///< relative rounding error of targetCurvature
+};
+
 /// Lengths of the sides of a triangle of the vertices at \p positions in space.
 inline std::array<double, 3> sideLengths(const Triangle& t, const std::vector<Point3>& positions)
 {

@@ -151,107 +151,78 @@ Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 	return positions;
 }
 
-/// A flat mesh on its way to less distortion. Nothing is allocated between steps along directions.
-class DistortionDescent
-{
-public:
-	DistortionDescent(const FlatMesh& flat, const PointGroups& groups, bool countsFlipped) :
-			m_energy(flat, groups, countsFlipped), m_points(m_energy.points()),
-			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
-			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
-	{
-		m_value = m_energy.evaluate(m_position);
-	}
-
-	/// Moves the points of \p flat if a step has lowered the energy.
-	/// \return whether the bound on its steps has ended it
-	bool descend(FlatMesh& flat)
-	{
-		if (!std::isfinite(m_value) || m_points.unknowns == 0)
-			return false;
-		DistortionLaplacian laplacian(m_energy);
-		m_energy.gradient(m_gradient);
-		int steps = 0; // that have lowered it
-		double lastGain = kInfinity;
-		bool isSeen = true;
-		while (steps < kMaxSteps && isSeen) {
-			checkpoint();
-			if (steps % kSameStiffness == 0 && !laplacian.factorize())
-				break;
-			m_bfgs.direction(
-				m_gradient,
-				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
-					laplacian.solve(rhs, x, kResidual);
-				},
-				m_direction);
-			const double gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
-			if (!(gain > 0.0))
-				break;
-			++steps;
-			isSeen = gain + lastGain >= worthOf(kSeen);
-			lastGain = gain;
-		}
-		if (steps > 0)
-			for (const int p : flat.place.indices())
-				flat.place[p] = asPoint(m_position[m_points.number[p]]);
-		return steps == kMaxSteps && isSeen;
-	}
-
-private:
-	/// How much E = mean of (K - 1)^(5/4) changes where K changes by \p change everywhere.
-	double worthOf(double change) const { return 1.25 * std::pow(m_value, 0.2) * change; }
-
-	/// Goes along the direction, down which E falls by -\p slope at first, as far as it falls.
-	/// \return by how much it falls; not positive where the direction does not lead down
-	double step(double slope)
-	{
-		if (!(slope < 0.0 && std::isfinite(slope)))
-			return 0.0;
-		double value = m_value;
-		const double length = LineSearch{kMinStep}.run(1.0, slope, m_value, [&](double trial) {
-			setTrial(trial);
-			return value = m_energy.evaluate(m_trial);
-		});
-		if (length == 0.0)
-			return 0.0;
-		const double gain = m_value - value;
-		m_value = value;
-		m_position.swap(m_trial);
-		m_energy.gradient(m_nextGradient);
-		m_gradient = m_nextGradient - m_gradient;
-		m_direction *= length;
-		m_bfgs.remember(m_direction, m_gradient);
-		m_gradient.swap(m_nextGradient);
-		return gain;
-	}
-
-	void setTrial(double length)
-	{
-		const int unknowns = m_points.unknowns;
-		m_trial.head(unknowns) = m_position.head(unknowns) + length * m_direction;
-		// From the start on, so that the sides of a seam differ as they did there.
-		for (int p = unknowns; p < m_points.moving; ++p) {
-			const int source = m_points.unknown[p];
-			m_trial[p] = m_start[p] + m_points.turn[p] * (m_trial[source] - m_start[source]);
-		}
-	}
-
-	MeanDistortion m_energy;
-	const NumberedPoints& m_points;
-	LimitedMemoryBfgs m_bfgs;
-	Eigen::VectorXcd m_start, m_position, m_trial;            // [number of a point]
-	Eigen::VectorXcd m_direction, m_gradient, m_nextGradient; // [unknown]
-	double m_value;
-};
-
 } // namespace
 
 bool leastDistortion(
 	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped)
 {
-	DistortionDescent descent(
+	MeanDistortion energy(
 		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }), countsFlipped);
-	return descent.descend(flat);
+	const NumberedPoints& points = energy.points();
+	const int unknowns = points.unknowns;
+	LimitedMemoryBfgs bfgs(unknowns, kDepth);
+	const Eigen::VectorXcd start = positionsOf(points, flat);
+	Eigen::VectorXcd position = start, trial = start; // [number of a point]
+	double value = energy.evaluate(position);
+	if (!std::isfinite(value) || unknowns == 0)
+		return false;
+	// Nothing is allocated between steps.
+	Eigen::VectorXcd direction(unknowns), gradient, nextGradient;
+	const auto valueAt = [&](double length) {
+		trial.head(unknowns) = position.head(unknowns) + length * direction;
+		// From the start on, so that the sides of a seam differ as they did there.
+		for (int p = unknowns; p < points.moving; ++p) {
+			const int source = points.unknown[p];
+			trial[p] = start[p] + points.turn[p] * (trial[source] - start[source]);
+		}
+		return energy.evaluate(trial);
+	};
+	// Goes along the direction as far as E falls. \return by how much it falls; 0 where it leads down no longer
+	const auto gainOfStep = [&] {
+		const double slope = 2.0 * LimitedMemoryBfgs::dot(gradient, direction), before = value;
+		if (!(slope < 0.0 && std::isfinite(slope)))
+			return 0.0;
+		double next = before;
+		const double length = LineSearch{kMinStep}.run(
+			1.0, slope, before, [&](double trialLength) { return next = valueAt(trialLength); });
+		if (length == 0.0)
+			return 0.0;
+		value = next;
+		position.swap(trial);
+		energy.gradient(nextGradient);
+		gradient = nextGradient - gradient;
+		direction *= length;
+		bfgs.remember(direction, gradient);
+		gradient.swap(nextGradient);
+		return before - value;
+	};
+	DistortionLaplacian laplacian(energy);
+	energy.gradient(gradient);
+	int steps = 0; // that have lowered it
+	double lastGain = kInfinity;
+	bool isSeen = true;
+	while (steps < kMaxSteps && isSeen) {
+		checkpoint();
+		if (steps % kSameStiffness == 0 && !laplacian.factorize())
+			break;
+		bfgs.direction(
+			gradient,
+			[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
+				laplacian.solve(rhs, x, kResidual);
+			},
+			direction);
+		const double gain = gainOfStep();
+		if (!(gain > 0.0))
+			break;
+		++steps;
+		// How much E = mean of (K - 1)^(5/4) changes where K changes by kSeen everywhere.
+		isSeen = gain + lastGain >= 1.25 * std::pow(value, 0.2) * kSeen;
+		lastGain = gain;
+	}
+	if (steps > 0)
+		for (const int p : flat.place.indices())
+			flat.place[p] = asPoint(position[points.number[p]]);
+	return steps == kMaxSteps && isSeen;
 }
 
 } // namespace ricci

@@ -17,11 +17,9 @@ namespace ricci {
 
 namespace {
 
-/// Steps at most, and the share of what is above an isometry's energy that one must gain.
+/// Steps at most, the share of what is above an isometry's energy that one must gain, and of itself that must be left.
 constexpr int kMaxStretchSteps = 40;
-constexpr double kMinStretchGain = 1e-3;
-
-constexpr double kMinStretchStep = 1e-8;
+constexpr double kMinStretchGain = 1e-3, kMinStretchStep = 1e-8;
 
 } // namespace
 

@@ -29,11 +29,9 @@ constexpr double kMinImprovement = 0.9999;
 constexpr int kMaxIdleRounds = 6;
 constexpr double kStress = 8.0;
 
-/// A round that leaves more than this share of the energy has gained nothing.
-constexpr double kNoGain = 0.99;
-
-/// A round whose least determinant stays below this share of the one before has hardly brought it nearer to 0.
-constexpr double kMaxLeft = 0.9;
+/// A round that leaves more than this share of the energy has gained nothing; one whose least determinant stays below
+/// the other share of the one before has hardly brought it nearer to 0.
+constexpr double kNoGain = 0.99, kMaxLeft = 0.9;
 
 /// Steps of a search are halved, 29 times at most.
 constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};

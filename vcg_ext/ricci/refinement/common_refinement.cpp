@@ -20,83 +20,56 @@ bool isOnCut(const PieceCorner& c, const EdgeArray<char>& isCut)
 	return c.input.isValid() && isCut[c.input.edge()];
 }
 
-/// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
-/// meet off the cut. They form a surface without a cut.
-class SheetMaker
+/// The sheets that belong to the pieces of an overlay, glued along end edges where the pieces meet off the cut: a
+/// surface without a cut.
+/// \param isCut 1 on input edges
+EndSheets
+sheetsOf(const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut)
 {
-public:
-	/// \param isCut 1 on input edges
-	SheetMaker(
-		const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut) :
-			m_pieces(pieces),
-			m_end(end), m_isCut(isCut), m_sets(pieces.count())
-	{
-	}
-
-	EndSheets run()
-	{
-		for (const auto& link : m_pieces.links) {
-			if (!link[1].isValid())
+	DisjointSets sets(pieces.count()); // of pieces: those of one sheet
+	EndSheets sheets;
+	std::vector<Triangle> triangles; // [sheet]
+	CornerArray<Corner> glued;       // [side of a sheet] the side across it
+	const auto listSheets = [&] {
+		triangles.clear();
+		sheets.endFace.clear();
+		sheets.of.assign(pieces.count(), Face());
+		for (const int p : sheets.of.indices()) {
+			if (sets.find(p) != p)
 				continue;
-			const PieceCorner& side = m_pieces.at(link[0]);
-			if (!isOnCut(side, m_isCut) && !side.end.isValid())
-				m_sets.merge(link[0].piece, link[1].piece);
+			const Face f = pieces.endFace[p];
+			const auto corner = end.vertices(f);
+			sheets.of[p] = Face(sheets.endFace.size());
+			sheets.endFace.push_back(f);
+			triangles.push_back({corner[0].number(), corner[1].number(), corner[2].number()});
 		}
-		do
-			listSheets();
-		while (!glue());
-		m_sheets.triangulation = Triangulation(m_end.vertexCount(), m_triangles, m_glued);
-		return std::move(m_sheets);
-	}
-
-private:
-	/// One sheet for each set of pieces.
-	void listSheets()
-	{
-		m_triangles.clear();
-		m_sheets.endFace.clear();
-		m_sheets.of.assign(m_pieces.count(), Face());
-		for (const int p : m_sheets.of.indices()) {
-			if (m_sets.find(p) != p)
-				continue;
-			const Face f = m_pieces.endFace[p];
-			const auto corner = m_end.vertices(f);
-			m_sheets.of[p] = Face(m_sheets.endFace.size());
-			m_sheets.endFace.push_back(f);
-			m_triangles.push_back({corner[0].number(), corner[1].number(), corner[2].number()});
-		}
-		for (const int p : m_sheets.of.indices())
-			m_sheets.of[p] = m_sheets.of[m_sets.find(p)];
-	}
-
-	/// Number of the side of a piece's sheet that is end halfedge h.
-	Corner sideOf(int piece, Halfedge h) const
-	{
-		return {m_sheets.of[piece].number(), static_cast<int>(m_end.corner(h).index())};
-	}
-
-	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
-	/// of them twice with no vertex between: it then cuts parts off that lie across one side of one
-	/// sheet. They have one place in the layout and become one set.
-	/// \return false if there are such parts
-	bool glue()
-	{
-		CornerArray<int> pieceAcross(3 * m_sheets.endFace.size(), -1); // [side] of the other sheet
-		m_glued.assign(3 * m_sheets.endFace.size(), Corner());
+		for (const int p : sheets.of.indices())
+			sheets.of[p] = sheets.of[sets.find(p)];
+	};
+	// The side of a piece's sheet that is end halfedge h.
+	const auto sideOf = [&](int piece, Halfedge h) {
+		return Corner(sheets.of[piece].number(), static_cast<int>(end.corner(h).index()));
+	};
+	// The cut is straight in another metric than the end edges and may cross one of them twice with no vertex
+	// between: it then cuts parts off that lie across one side of one sheet. They have one place in the layout
+	// and become one set. \return false if there are such parts
+	const auto glue = [&] {
+		CornerArray<int> pieceAcross(3 * sheets.endFace.size(), -1); // [side] of the other sheet
+		glued.assign(3 * sheets.endFace.size(), Corner());
 		bool fits = true;
-		for (const auto& link : m_pieces.links) {
+		for (const auto& link : pieces.links) {
 			if (!link[1].isValid())
 				continue;
-			const PieceCorner& side = m_pieces.at(link[0]);
-			if (isOnCut(side, m_isCut) || !side.end.isValid())
+			const PieceCorner& side = pieces.at(link[0]);
+			if (isOnCut(side, isCut) || !side.end.isValid())
 				continue;
 			const Corner a = sideOf(link[0].piece, side.end);
 			const Corner b = sideOf(link[1].piece, side.end.twin());
 			for (const auto& [from, to, piece] :
 				 {std::tuple(a, b, link[1].piece), std::tuple(b, a, link[0].piece)}) {
-				Corner& known = m_glued[from];
+				Corner& known = glued[from];
 				if (known.isValid() && known != to) {
-					m_sets.merge(pieceAcross[from], piece);
+					sets.merge(pieceAcross[from], piece);
 					fits = false;
 				}
 				known = to;
@@ -104,16 +77,18 @@ private:
 			}
 		}
 		return fits;
-	}
-
-	const OverlayPieces& m_pieces;
-	const Triangulation& m_end;
-	const EdgeArray<char>& m_isCut;
-	DisjointSets m_sets; // of pieces: those of one sheet
-	EndSheets m_sheets;
-	std::vector<Triangle> m_triangles; // [sheet]
-	CornerArray<Corner> m_glued;       // [side of a sheet] the side across it
-};
+	};
+	for (const auto& link : pieces.links)
+		if (link[1].isValid())
+			if (const PieceCorner& side = pieces.at(link[0]);
+				!isOnCut(side, isCut) && !side.end.isValid())
+				sets.merge(link[0].piece, link[1].piece);
+	do
+		listSheets();
+	while (!glue());
+	sheets.triangulation = Triangulation(end.vertexCount(), triangles, glued);
+	return sheets;
+}
 
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
@@ -196,7 +171,7 @@ private:
 	/// Lays the sheets out and places the pieces in them.
 	void layOut()
 	{
-		EndSheets sheets = SheetMaker(m_pieces, m_end, m_isCut).run();
+		EndSheets sheets = sheetsOf(m_pieces, m_end, m_isCut);
 		takeMetric(m_flow, sheets);
 		if (m_flow.target.background == Background::EuclideanPlane)
 			placeInPlane(sheets, layOutInPlane(sheets));
