@@ -23,7 +23,12 @@ struct FlowPlan
 };
 
 /// The domain of the flow to the plane, the initial packing, and what the target is chosen from.
-FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options);
+/// \param mirrors whether a mirror symmetry is looked for where cones and seams may have it
+FlowPlan startOfPlan(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	bool mirrors = true);
 
 /// Chooses the target.
 /// \param alternative see TargetRequest

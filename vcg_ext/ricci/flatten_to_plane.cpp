@@ -65,8 +65,6 @@ TargetRequest targetRequest(
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
-	if (mayMirror(component, request))
-		request.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }
 
@@ -312,7 +310,8 @@ void measureBoundary(const FlatMesh& map, Report& report)
 
 } // namespace
 
-FlowPlan startOfPlan(const Component& component, const VertexInput& input, const Options& options)
+FlowPlan startOfPlan(
+	const Component& component, const VertexInput& input, const Options& options, bool mirrors)
 {
 	advance(0.0, "Circle packing");
 	FlowPlan plan;
@@ -321,6 +320,8 @@ FlowPlan startOfPlan(const Component& component, const VertexInput& input, const
 	if (options.method != Method::EdgeSwaps)
 		plan.start = initialPacking(plan.domain.solved(), options); // 4.1
 	plan.request = targetRequest(component, input, options, plan.domain);
+	if (mirrors && mayMirror(component, plan.request))
+		plan.request.mirror = findMirror(plan.domain.surface, plan.domain.onHole);
 	return plan;
 }
 

@@ -183,8 +183,7 @@ Parametrization mirroredOrNot(
 	Parametrization map)
 {
 	auto other = attempt("the mirrored map stays", [&] {
-		FlowPlan plan = startOfPlan(component, input, options);
-		plan.request.mirror = nullptr;
+		FlowPlan plan = startOfPlan(component, input, options, false);
 		completePlan(options, alternative, plan);
 		Parametrization plain = flattenToPlane(component, std::move(plan), options);
 		separateCharts(options, plain);
