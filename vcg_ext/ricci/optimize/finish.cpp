@@ -76,9 +76,13 @@ FinishCounts finishInPlane(
 	if (finish == Finish::Repair)
 		return repair();
 	FinishCounts counts = repair();
-	const bool endedEarly = finish == Finish::LeastStretch
-								? leastStretch(flat)
-								: leastDistortion(flat, cones, freeBoundary, mayCut);
+	bool endedEarly = false;
+	if (finish == Finish::LeastStretch) {
+		scaleToSurface(flat);
+		endedEarly = leastStretch(flat, allPoints(flat));
+	}
+	else
+		endedEarly = leastDistortion(flat, joinedPoints(flat, cones, freeBoundary), mayCut);
 	if (endedEarly)
 		logLine("The finish stopped at its step limit: the map could still be slightly better.");
 	counts.endedEarly += endedEarly;

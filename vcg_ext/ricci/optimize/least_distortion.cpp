@@ -153,11 +153,9 @@ Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 
 } // namespace
 
-bool leastDistortion(
-	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped)
+bool leastDistortion(FlatMesh& flat, const PointGroups& groups, bool countsFlipped)
 {
-	MeanDistortion energy(
-		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }), countsFlipped);
+	MeanDistortion energy(flat, groups, countsFlipped);
 	const NumberedPoints& points = energy.points();
 	const int unknowns = points.unknowns;
 	LimitedMemoryBfgs bfgs(unknowns, kDepth);

@@ -71,27 +71,24 @@ private:
 /// The same result to the bit with any number of threads.
 /// \param flat one component. Triangles without area in the plane do not count.
 /// If nothing stays, its size may change.
-/// \param cones 1 at cones inside
-/// \param boundaryMoves whether the boundary is free; else its points stay
+/// \param groups joinedPoints() of a map whose cones are known
 /// \param countsFlipped whether flipped triangles stay flipped, and count as reflected ones; else they do not count
 /// It checks between steps whether the run has ended; then \p flat is what it was.
 /// \return whether the bound on its steps has ended it: the distortion may become smaller still
 /// \throw std::bad_alloc
-bool leastDistortion(
-	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped);
+bool leastDistortion(FlatMesh& flat, const PointGroups& groups, bool countsFlipped);
 
-/// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy
-/// |J|^2 + |J^-1|^2 by area becomes small [Smith Schaefer 2015]: the map that trades angles for areas, and
-/// stretches nothing much in any direction. The two sides of a seam move freely, so that they differ
-/// afterwards, and so does the boundary.
+/// Moves the points of a map to the plane, so that its mean symmetric Dirichlet energy
+/// |J|^2 + |J^-1|^2 by area, at its size, becomes small [Smith Schaefer 2015]: the map that trades angles for areas,
+/// and stretches nothing much in any direction.
 ///
 /// Newton's method with each triangle's Hessian made positive semidefinite [Smith de Goes Kim 2019]. Steps
 /// are shortened until no triangle is flipped, by an exact test, and the energy falls enough. They end when
 /// one gains less than a thousandth of what is above 4. A chart may cover itself afterwards.
-/// \param flat one component; it gets the area that it has on the surface. Its triangles that are not
-/// counter-clockwise do not count.
+/// \param flat one component. Its triangles that are not counter-clockwise do not count.
+/// \param groups with joinedPoints() seams stay isometric; with allPoints() their two sides differ afterwards
 /// \return whether the bound on its steps has ended it
-bool leastStretch(FlatMesh& flat);
+bool leastStretch(FlatMesh& flat, const PointGroups& groups);
 
 } // namespace ricci
 

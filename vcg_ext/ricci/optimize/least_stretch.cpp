@@ -23,16 +23,15 @@ constexpr double kMinStretchGain = 1e-3, kMinStretchStep = 1e-8;
 
 } // namespace
 
-bool leastStretch(FlatMesh& flat)
+bool leastStretch(FlatMesh& flat, const PointGroups& groups)
 {
 	checkpoint();
-	scaleToSurface(flat);
 	const double height = kMinHeight * flat.box().extent();
 	const Validity validity{height, kWantedHeights * height};
-	const Patch whole = wholePatch(flat);
+	const Patch whole = wholePatch(flat, groups);
 	PatchEnergy energy(
 		flat,
-		allPoints(flat),
+		groups,
 		whole,
 		restShapes(flat, whole, RestShapes::OfSurfaceEvenly, validity),
 		PatchCost::SymmetricDirichlet);
@@ -46,7 +45,8 @@ bool leastStretch(FlatMesh& flat)
 	const auto placesAt = [&](const Eigen::VectorXd& x) {
 		Array<Point2> places = start;
 		for (const int p : places.indices())
-			places[p] = {places[p][0] + x[2 * p], places[p][1] + x[2 * p + 1]};
+			if (const int v = whole.variable[p]; v >= 0)
+				places[p] = groups.displaced(p, start, {x[2 * v], x[2 * v + 1]});
 		return places;
 	};
 	Eigen::VectorXd x = Eigen::VectorXd::Zero(energy.size()), trial, gradient, direction;

@@ -9,7 +9,7 @@
 
 namespace ricci {
 
-Patch wholePatch(const FlatMesh& flat)
+Patch wholePatch(const FlatMesh& flat, const PointGroups& groups)
 {
 	Patch patch;
 	patch.triangles.resize(positionOf(flat.size()));
@@ -17,8 +17,14 @@ Patch wholePatch(const FlatMesh& flat)
 	std::iota(patch.triangles.begin(), patch.triangles.end(), 0);
 	std::iota(patch.points.begin(), patch.points.end(), 0);
 	patch.corners = flat.points;
-	patch.variable = Array<int>(patch.points);
-	patch.variables = flat.place.size();
+	patch.variable.assign(flat.place.size(), -1);
+	Array<int> number(groups.fixed.size(), -1);
+	for (const int p : flat.place.indices()) {
+		const int g = groups.group[p];
+		if (!groups.fixed[g] && number[g] < 0)
+			number[g] = patch.variables++;
+		patch.variable[p] = number[g];
+	}
 	return patch;
 }
 

@@ -78,8 +78,8 @@ struct Patch
 	bool isFree() const { return variables == static_cast<int>(points.size()); }
 };
 
-/// All triangles; every point moves.
-Patch wholePatch(const FlatMesh& flat);
+/// All triangles, with the groups that are not fixed.
+Patch wholePatch(const FlatMesh& flat, const PointGroups& groups);
 
 /// Finds patches in one flat mesh.
 class PatchFinder

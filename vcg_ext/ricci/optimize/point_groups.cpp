@@ -191,10 +191,9 @@ PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 	return result;
 }
 
-PointGroups joinedPoints(
-	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves)
+PointGroups joinedPoints(const FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
-	PointGroups groups = withBoundary(flat, boundaryMoves);
+	PointGroups groups = withBoundary(flat, [=](int) { return boundaryMoves; });
 	const double maxGap = kCheckedGap * flat.box().extent();
 	const auto origin = [&](Corner side) { return Vertex(flat.vertices[side]); };
 	const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {

@@ -52,8 +52,9 @@ PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 /// rounding.
 /// The first point of a group lies on the left of its seam. Fixed are, too: cones, vertices where seams
 /// end or several meet, and seams whose sides do not fit.
-PointGroups joinedPoints(
-	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves);
+/// \param cones 1 at cones inside
+/// \param boundaryMoves whether the boundary is free; else its points stay
+PointGroups joinedPoints(const FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
 
 } // namespace ricci
 
