@@ -8,6 +8,7 @@
 #include "measure/distortion.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -80,50 +81,28 @@ Parametrization chosen(const std::string& choice, Parametrization map)
 
 /// The map of a flow with other cones, without overlap.
 /// \param ask changes the TargetRequest
-/// \return none where it fails, which is told with \p otherwise
+/// \param isWorth whether to lay it out, with the Target that was chosen
+/// \return none where it is not worth that, or fails, which is told with \p otherwise
 template<class Ask>
 std::optional<Parametrization> otherMap(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
 	const std::string& otherwise,
-	const Ask& ask)
+	const Ask& ask,
+	const std::function<bool(const Target&)>& isWorth = nullptr)
 {
-	return attempt(otherwise, [&] {
+	auto found = attempt(otherwise, [&]() -> std::optional<Parametrization> {
 		FlowPlan plan = startOfPlan(component, input, options);
 		ask(plan.request);
 		completePlan(options, plan);
+		if (isWorth && !isWorth(plan.target))
+			return std::nullopt;
 		Parametrization map = flattenToPlane(component, std::move(plan), options);
 		separateCharts(options, map);
 		return map;
 	});
-}
-
-/// The map of the cones that cost least where energy costs by that factor what is expected.
-/// \param alternative what another map costs
-/// \param expected receives what these are expected to cost
-/// \return none where that is no less than the alternative, or it fails
-std::optional<Parametrization> mapAtFactor(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options,
-	double energyFactor,
-	double alternative,
-	double& expected)
-{
-	auto map = attempt("the map before it stays", [&]() -> std::optional<Parametrization> {
-		FlowPlan plan = startOfPlan(component, input, options);
-		plan.request.energyFactor = energyFactor;
-		plan.request.alternative = alternative;
-		completePlan(options, plan);
-		expected = plan.target.expected ? plan.target.expected->total(energyFactor) : kInfinity;
-		if (!(expected < alternative))
-			return std::nullopt;
-		Parametrization next = flattenToPlane(component, std::move(plan), options);
-		separateCharts(options, next);
-		return next;
-	});
-	return map ? *std::move(map) : std::nullopt;
+	return found ? *std::move(found) : std::nullopt;
 }
 
 /// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
@@ -146,6 +125,7 @@ Parametrization withOtherCones(
 			map = *std::move(next);
 		map.report.iterations = steps;
 	};
+	const std::string otherwise = "the map before it stays";
 	bool isBroken = expected && cost() > expected->total() + kBrokenPromise;
 	if (isBroken) {
 		const double isometry = expectedEnergy(0.0);
@@ -153,18 +133,23 @@ Parametrization withOtherCones(
 		const double factor =
 			std::clamp((costOf(map).energy - isometry) / promised, 1.0, kMaxEnergyFactor);
 		double atFactor = expected->total(factor);
+		const auto ask = [&](TargetRequest& request) {
+			request.energyFactor = factor;
+			request.alternative = cost();
+		};
+		const auto isWorth = [&](const Target& target) {
+			atFactor = target.expected ? target.expected->total(factor) : kInfinity;
+			return atFactor < cost();
+		};
 		if (atFactor > expected->total() + kBrokenPromise)
-			take(mapAtFactor(component, input, options, factor, cost(), atFactor));
+			take(otherMap(component, input, options, otherwise, ask, isWorth));
 		isBroken = cost() > atFactor + kBrokenPromise;
 	}
-	for (const double spread : kSpreadsInstead) {
-		if (cost() <= kPoorCost && !(isBroken && spread == kSpreadsInstead[1]))
-			continue;
-		take(otherMap(
-			component, input, options, "the map before it stays", [&](TargetRequest& request) {
+	for (const double spread : kSpreadsInstead)
+		if (cost() > kPoorCost || (isBroken && spread == kSpreadsInstead[1]))
+			take(otherMap(component, input, options, otherwise, [&](TargetRequest& request) {
 				request.goal = {ConeGoal::Spread, 0, spread};
 			}));
-	}
 	return map;
 }
 

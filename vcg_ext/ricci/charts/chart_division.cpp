@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace ricci {
@@ -18,6 +19,11 @@ using Parts = std::vector<std::vector<int>>; // triangles of each
 
 /// What a triangle is for a cut.
 enum Terminal : char { kNoTerminal, kSource, kSink };
+
+/// The least cut round a sheet that is far from what it covers is looked for among the triangles nearest to it: at least so
+/// many, and so many for each of its own. Of 79 meshes two are cut elsewhere than with all triangles, and the objective is
+/// 0.005 % more; a plate with a thousand slits takes half the time, a statue in few large sheets a tenth less.
+constexpr std::size_t kNear = 1000, kNearForEach = 4;
 
 /// Divides a chart so that no part contains both triangles of a pair.
 class ChartDivider
@@ -82,7 +88,7 @@ private:
 				visit(other.face(), side);
 	}
 
-	/// Gives a new number to one side of the minimum cut between the sheet of \p seed and what it
+	/// Gives a new number to one side of the least cut between the sheet of \p seed and what it
 	/// covers, and to all pieces but one into which each side falls.
 	void cut(int seed)
 	{
@@ -103,19 +109,13 @@ private:
 				if (m_terminal[i] == kNoTerminal && hasRival(i))
 					claim(i);
 			});
-		const MinCut::Side side =
-			m_minCut.run(sheet, covered, [&](int i, const MinCut::AddEdge& add) {
-				neighbours(i, [&](int j, Corner across) {
-					if (m_terminal[i] == kNoTerminal || m_terminal[i] != m_terminal[j])
-						add(j, m_graph.weight(across), m_graph.weight(across));
-				});
-			});
+		const std::vector<int> side = sideOfCut(sheet, covered);
 		for (const std::vector<int>* marked : {&sheet, &covered})
 			for (const int i : *marked)
 				m_terminal[i] = kNoTerminal;
-		renumber(side.nodes);
+		renumber(side);
 		std::vector<int> ends, otherEnds;
-		for (const int i : side.nodes)
+		for (const int i : side)
 			for (const Corner own : cornersOf(i))
 				if (const Corner other = m_graph.joined(own);
 					other.isValid() && m_part[other.face()] == whole) {
@@ -124,6 +124,93 @@ private:
 				}
 		separate(ends);
 		separate(otherEnds);
+	}
+
+	/// One side of the least cut between triangles that are marked as sources and others that are as sinks; of
+	/// the least one round either, where they are far from each other: the way between them is not looked at.
+	std::vector<int> sideOfCut(const std::vector<int>& sources, const std::vector<int>& sinks)
+	{
+		const std::optional<Surroundings> ofSources = surroundings(sources);
+		const std::optional<Surroundings> ofSinks = ofSources ? surroundings(sinks) : std::nullopt;
+		if (!ofSinks)
+			return minCut(sources, sinks, [](int) { return true; }).nodes;
+		MinCut::Side first = cutRound(sources, *ofSources), second = cutRound(sinks, *ofSinks);
+		return first.capacity <= second.capacity ? std::move(first.nodes) : std::move(second.nodes);
+	}
+
+	template<class IsIn>
+	MinCut::Side
+	minCut(const std::vector<int>& sources, const std::vector<int>& sinks, const IsIn& isIn)
+	{
+		return m_minCut.run(sources, sinks, [&](int i, const MinCut::AddEdge& add) {
+			neighbours(i, [&](int j, Corner across) {
+				if ((m_terminal[i] == kNoTerminal || m_terminal[i] != m_terminal[j]) && isIn(j))
+					add(j, m_graph.weight(across), m_graph.weight(across));
+			});
+		});
+	}
+
+	/// Triangles around others.
+	struct Surroundings
+	{
+		std::vector<int> inner; ///< all their neighbours are inner ones or on the rim
+		std::vector<int> rim;
+	};
+
+	/// Those nearest to marked triangles.
+	/// \return none if they reach triangles that are marked otherwise
+	std::optional<Surroundings> surroundings(const std::vector<int>& triangles)
+	{
+		const std::size_t most = std::max(kNear, kNearForEach * triangles.size());
+		const Terminal own = m_terminal[triangles.front()];
+		std::vector<int> near = triangles;
+		for (const int i : near)
+			m_scratch[i] = 0;
+		bool isMet = false;
+		std::size_t head = 0;
+		for (; head < near.size() && (head < triangles.size() || near.size() < most) && !isMet;
+			 ++head)
+			neighbours(near[head], [&](int i, Corner) {
+				isMet |= m_terminal[i] != kNoTerminal && m_terminal[i] != own;
+				if (m_scratch[i] < 0) {
+					m_scratch[i] = 0;
+					near.push_back(i);
+				}
+			});
+		for (const int i : near)
+			m_scratch[i] = -1;
+		if (isMet)
+			return std::nullopt;
+		const auto rim = near.begin() + static_cast<std::ptrdiff_t>(head);
+		return Surroundings{{near.begin(), rim}, {rim, near.end()}};
+	}
+
+	/// The least cut between triangles and the rim around them. \return the side of the triangles
+	MinCut::Side cutRound(const std::vector<int>& triangles, const Surroundings& near)
+	{
+		const Terminal own = m_terminal[triangles.front()];
+		for (const int i : near.inner)
+			m_scratch[i] = 0;
+		for (const int i : near.rim) {
+			m_scratch[i] = 0;
+			m_terminal[i] = own == kSource ? kSink : kSource;
+		}
+		MinCut::Side side = minCut(triangles, near.rim, [&](int i) { return m_scratch[i] >= 0; });
+		if (!side.isOfSources) {
+			for (const int i : side.nodes)
+				m_scratch[i] = -1;
+			side.nodes.clear();
+			for (const int i : near.inner)
+				if (m_scratch[i] >= 0)
+					side.nodes.push_back(i);
+		}
+		for (const int i : near.inner)
+			m_scratch[i] = -1;
+		for (const int i : near.rim) {
+			m_scratch[i] = -1;
+			m_terminal[i] = kNoTerminal;
+		}
+		return side;
 	}
 
 	/// Gives a new number to triangles.

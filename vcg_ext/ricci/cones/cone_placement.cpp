@@ -291,8 +291,14 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 		[&] {
 			sites.emplace(surface, request.coneVertices());
 			checkCount(request, minConeCount(flow, total), *sites);
+		},
+		[&] {
 			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
 			found.emplace(*coarse, total, request.energyFactor);
+		});
+	besides(
+		defaultThreads(),
+		[&] {
 			coarseSites.emplace(*sites, roots);
 			search(request, *found, *coarseSites);
 		},
@@ -408,7 +414,6 @@ PlacedCones
 moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
 	advance(0.0, "Placing cones");
-	const ConeSites sites(surface, request.coneVertices());
 	LinearFlow linear(surface, flow, request.boundary(), tailWeights(surface, flowFactor(flow)));
 	if (request.goal.kind == ConeGoal::LeastCost) {
 		PlacedCones placed = placeCones(surface, linear, request);
@@ -418,6 +423,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRe
 		placed.distortion = areaChange(surface, linear.factor(whole)).spread;
 		return placed;
 	}
+	const ConeSites sites(surface, request.coneVertices());
 	ConeModel model(linear, surface.topology.type.totalCurvature());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())

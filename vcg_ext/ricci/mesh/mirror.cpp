@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "component.h"
 
-#include "../base/box_tree.h"
 #include "../base/graphs.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 
@@ -88,40 +88,42 @@ std::vector<Plane> planesToTry(const VertexArray<Point3>& positions, double nois
 	return planes;
 }
 
-/// In a plane that is parallel to nothing in particular.
-Point2 drawn(const Point3& p)
+/// Along a line that is parallel to nothing in particular.
+double along(const Point3& p)
 {
-	return {dot({0.5773, 0.2113, 0.7887}, p), dot({-0.6533, 0.7071, 0.2706}, p)};
+	return dot({0.5773, 0.2113, 0.7887}, p);
 }
 
-/// Of what is within the noise of the vertices, drawn().
-BoxTree treeOf(const VertexArray<Point3>& positions, double noise)
+/// Vertices in the order along() the line: few are as near to each other there as the noise.
+using Line = std::vector<std::pair<double, Vertex>>;
+
+Line lineOf(const VertexArray<Point3>& positions)
 {
-	std::vector<Box2> boxes;
-	for (const Point3& p : positions) {
-		const Point2 middle = drawn(p), reach{noise, noise};
-		boxes.push_back({middle - reach, middle + reach});
-	}
-	return BoxTree(boxes);
+	Line line;
+	line.reserve(positionOf(positions.size()));
+	for (const Vertex v : positions.indices())
+		line.push_back({along(positions[v]), v});
+	std::sort(line.begin(), line.end());
+	return line;
 }
 
-/// The vertex nearest to a place; none if it is farther away than the noise.
-/// \param tree treeOf() the vertices
-Vertex nearestTo(
-	const Point3& place, const VertexArray<Point3>& positions, double noise, const BoxTree& tree)
+/// The vertex nearest to a place, the first of several; none if it is farther away than the noise.
+/// \param line lineOf() the vertices
+Vertex
+nearestTo(const Point3& place, const VertexArray<Point3>& positions, double noise, const Line& line)
 {
 	Vertex nearest;
 	double least = noise;
-	tree.boxesAround(
-		drawn(place),
-		[&](int i) {
-			const double d = distance(positions[Vertex(i)], place);
-			if (d < least || (d == least && nearest.isValid() && Vertex(i) < nearest)) {
-				least = d;
-				nearest = Vertex(i);
-			}
-		},
-		[](int) { return false; });
+	const double at = along(place), reach = 2.0 * noise; // with room for rounding
+	for (auto i = std::lower_bound(line.begin(), line.end(), std::pair(at - reach, Vertex()));
+		 i != line.end() && i->first <= at + reach;
+		 ++i) {
+		const double d = distance(positions[i->second], place);
+		if (d < least || (d == least && nearest.isValid() && i->second < nearest)) {
+			least = d;
+			nearest = i->second;
+		}
+	}
 	return nearest;
 }
 
@@ -136,12 +138,12 @@ VertexArray<Vertex> imagesAcross(
 	const EmbeddedSurface& surface,
 	const VertexArray<char>& onHole,
 	double noise,
-	const BoxTree& tree)
+	const Line& line)
 {
 	const VertexArray<char>& boundary = surface.topology.boundary;
 	const auto nearest = [&](Vertex v) {
 		const Vertex w =
-			nearestTo(plane.mirrored(surface.positions[v]), surface.positions, noise, tree);
+			nearestTo(plane.mirrored(surface.positions[v]), surface.positions, noise, line);
 		const bool isLike =
 			w.isValid() && boundary[w] == boundary[v] && (onHole.empty() || onHole[w] == onHole[v]);
 		return isLike ? w : Vertex();
@@ -153,10 +155,11 @@ VertexArray<Vertex> imagesAcross(
 	if (4 * step * missing > count)
 		return {};
 	VertexArray<Vertex> image(count);
-	for (const Vertex v : image.indices()) {
-		checkpointNowAndThen(positionOf(v));
-		image[v] = nearest(v);
-	}
+	checkpoint();
+	inParallel(count, defaultThreads(), [&](int first, int last) {
+		for (int i = first; i < last; ++i)
+			image[Vertex(i)] = nearest(Vertex(i));
+	});
 	missing = 0;
 	for (const Vertex v : image.indices()) {
 		if (image[v].isValid() && image[image[v]] != v)
@@ -249,13 +252,13 @@ findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 	const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
 	std::nth_element(lengths.begin(), median, lengths.end());
 	const double noise = kMirrorNoise * *median;
-	const BoxTree tree = treeOf(surface.positions, noise);
+	const Line line = lineOf(surface.positions);
 	std::shared_ptr<MirrorSymmetry> best;
 	double least = kInfinity;
 	int found = 0;
 	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
-		mirror->image = imagesAcross(plane, surface, onHole, noise, tree);
+		mirror->image = imagesAcross(plane, surface, onHole, noise, line);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
 		double inPlane = 0.0;

@@ -36,6 +36,7 @@ public:
 	{
 		bool isOfSources;
 		std::vector<int> nodes;
+		std::int64_t capacity; ///< of the cut
 	};
 
 	/// A cut of minimum capacity between \p sources and \p sinks, which have no node in common.
@@ -63,7 +64,7 @@ public:
 				growFrom(node, forEdges);
 		}
 		const Tree found = m_active[kSources].empty() ? kSources : kSinks;
-		Side side{found == kSources, {}};
+		Side side{found == kSources, {}, m_flow};
 		for (const Node& node : m_nodes)
 			if (node.tree == found)
 				side.nodes.push_back(node.number);
@@ -101,6 +102,7 @@ private:
 		m_active[kSinks].clear();
 		m_orphans.clear();
 		m_mark = 0;
+		m_flow = 0;
 	}
 
 	int localOf(int number)
@@ -186,6 +188,7 @@ private:
 		for (const Tree tree : {kSources, kSinks})
 			for (int node = ends[tree]; m_nodes[node].parentArc >= 0; node = m_nodes[node].parent)
 				amount = std::min(amount, towards(m_nodes[node].parentArc ^ 1, tree));
+		m_flow += amount;
 		m_arcs[arc].capacity -= amount;
 		m_arcs[arc ^ 1].capacity += amount;
 		pushBack(ends[kSources], kSources, amount);
@@ -274,6 +277,7 @@ private:
 	std::deque<int> m_active[2]; // of each tree
 	std::deque<int> m_orphans;   // nodes that have lost their parents
 	int m_mark = 0;              // paths that were used up
+	std::int64_t m_flow = 0;
 };
 
 } // namespace ricci

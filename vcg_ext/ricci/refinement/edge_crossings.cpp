@@ -7,10 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace ricci {
 
 namespace {
+
+/// Edges that are crossed more often than so many times for each face are told: a refinement mostly has a few pieces for
+/// each, that of a fan of n triangles may have n.
+constexpr std::size_t kManyCrossings = 16;
 
 /// Position of a crossing counted from the origin of its edge's halfedge().
 int fromEdge(const NormalCoordinates::Crossing& x, int count)
@@ -141,6 +146,11 @@ EdgeCrossings::EdgeCrossings(const FlowResult& flow) :
 				 static_cast<std::size_t>(endOnStart.crossings(e));
 	checkpoint();
 	requireOverlayMemory(count, true);
+	const auto faces = static_cast<std::size_t>(m_start.faceCount());
+	if (count > kManyCrossings * faces)
+		logLine(
+			"The common refinement will have more than " + std::to_string(faces + count) +
+			" pieces for " + std::to_string(faces) + " faces.");
 
 	NormalCoordinates startOnEnd(m_start);
 	for (const Edge e : flowFlips)
