@@ -83,8 +83,6 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 {
 	const SurfaceMesh& mesh = opened.mesh;
 	std::vector<Component> components(positionOf(opened.componentCount));
-	for (std::size_t c = 0; c < opened.hasSeam.size(); ++c)
-		components[c].hasSeam = opened.hasSeam[c] != 0;
 	std::vector<Vertex> local(mesh.positions.size()); // of each vertex of the mesh
 	for (const Face f : opened.component.indices()) {
 		Component& c = components[positionOf(opened.component[f])];
@@ -112,8 +110,13 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			c.map.push_back(
 				{uv[c.inputCorner(own, 0)], uv[c.inputCorner(own, 1)], uv[c.inputCorner(own, 2)]});
 		}
-		if (!opened.hole.empty())
-			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
+		if (!opened.border.empty()) {
+			c.hole.push_back(inOrder(opened.border[positionOf(f)], opened.reversed[f]));
+			for (char& side : c.hole.back()) {
+				c.hasSeam = c.hasSeam || side == OpenedMesh::OnSeam;
+				side = side == OpenedMesh::OnHole;
+			}
+		}
 	}
 	for (Component& component : components)
 		numberBreadthFirst(component);

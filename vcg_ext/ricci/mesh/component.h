@@ -28,9 +28,9 @@ struct Component
 	std::vector<std::array<double, 3>>
 		lengths;        ///< [face] of the sides of these triangles, see SurfaceMesh; may be empty
 	SideMarks diagonal; ///< of these triangles, see SurfaceMesh; may be empty
-	SideMarks hole;     ///< of these triangles, see OpenedMesh; may be empty
+	SideMarks hole;     ///< of these triangles: 1 on one, see OpenedMesh; may be empty
 	std::vector<Triangle2> map; ///< of these triangles, see SurfaceMesh; may be empty
-	bool hasSeam = false;       ///< see OpenedMesh
+	bool hasSeam = false;       ///< whether a seam that was opened is on the boundary
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }

@@ -184,7 +184,7 @@ public:
 		keepSides(m_glued);
 		if (!m_across.empty()) {
 			keepSides(m_across);
-			keep(m_opened.hole);
+			keep(m_opened.border);
 		}
 		splitVertices();
 		m_partition = partitionFaces(m_triangles, m_glued);
@@ -194,10 +194,9 @@ public:
 	{
 		if (!m_across.empty()) {
 			countSplitWithoutSeams();
-			m_opened.hasSeam.assign(positionOf(m_partition.componentCount), 0);
 			for (const Corner side : m_across.indices())
 				if (m_across[side].isValid())
-					m_opened.hasSeam[positionOf(m_partition.component[side.face()])] = 1;
+					m_opened.border[positionOf(side.face())][side.index()] = OpenedMesh::OnSeam;
 		}
 		m_opened.mesh.positions = places();
 		m_opened.mesh.triangles = std::move(m_corners.values());
@@ -342,10 +341,10 @@ private:
 			if (const Corner loop = loops.find(s); !known.isValid() || length[loop] > length[known])
 				known = loop;
 		}
-		m_opened.hole.assign(positionOf(m_triangles.size()), {0, 0, 0});
+		m_opened.border.assign(positionOf(m_triangles.size()), {});
 		for (const Corner s : sides)
-			m_opened.hole[positionOf(s.face())][s.index()] =
-				loops.find(s) != longest[partition.component[s.face()]];
+			if (loops.find(s) != longest[partition.component[s.face()]])
+				m_opened.border[positionOf(s.face())][s.index()] = OpenedMesh::OnHole;
 	}
 
 	Corner inInput(Corner c) const

@@ -32,11 +32,10 @@ struct OpenedMesh
 		reversed; ///< [face of mesh] 1 if it is turned: the majority of a component is not
 	int componentCount = 0;
 
-	/// [face of mesh][k] 1 where the side from corner k lies on a hole: a boundary loop other than the
-	/// longest of its component before seams were opened. Empty where none were.
-	SideMarks hole;
-	/// [component] 1 where a seam that was opened is on the boundary. Empty where none were.
-	std::vector<char> hasSeam;
+	/// Where the side of a face lies: on a hole, a boundary loop other than the longest of its component before seams
+	/// were opened; or on a seam that was opened.
+	enum Border : char { Other, OnHole, OnSeam };
+	SideMarks border; ///< [face of mesh][k] a Border; empty where no seams were opened
 
 	/// Edges whose faces had vertices of their own there, joined; and by how many pieces the surface would be fewer if
 	/// those that are left were.

@@ -16,12 +16,10 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Values of eps that are tried, and Newton steps with each of them; the steps that follow once all
-/// triangles are valid.
-constexpr int kMaxRounds = 40, kStepsPerRound = 3, kLastSteps = 10;
+/// triangles are valid, and those of ease().
+constexpr int kMaxRounds = 40, kStepsPerRound = 3, kLastSteps = 10, kEasingSteps = 40;
 
-/// Newton steps of ease(), and the share of the energy that a step must not leave to be followed by
-/// another.
-constexpr int kEasingSteps = 40;
+/// The share of the energy that one of these must not leave to be followed by another.
 constexpr double kMinImprovement = 0.9999;
 
 /// Rounds without a gain after which a patch is given up; the weight of triangles that are not valid
@@ -175,8 +173,8 @@ private:
 		return m_invalid.empty();
 	}
 
-	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
-	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
+	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9, kFirstEps = 0.1, kEpsFall = 0.2,
+							kSmallEps = 0.02;
 
 	const FlatMesh& m_flat;
 	const PointGroups& m_groups;
