@@ -133,13 +133,16 @@ Parametrization withOtherCones(
 	if (map.report.targetUsed != TargetUsed::PlacedCones ||
 		goalOf(options.cones) != ConeGoal::LeastCost)
 		return map;
-	const auto cost = [&] { return std::min(costOf(map).total(), alternative); };
+	double own = costOf(map).total();
+	const auto cost = [&] { return std::min(own, alternative); };
 	const auto take = [&](std::optional<Parametrization> next) {
 		if (!next)
 			return;
 		const int steps = map.report.iterations + next->report.iterations;
-		if (costOf(*next).total() < costOf(map).total())
+		if (const double ofNext = costOf(*next).total(); ofNext < own) {
+			own = ofNext;
 			map = *std::move(next);
+		}
 		map.report.iterations = steps;
 	};
 	bool isBroken = expected && cost() > expected->total() + kBrokenPromise;
