@@ -43,8 +43,7 @@ constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 /// Whether cones and seams are to be mirrored: where they are chosen for the least cost alone, which tells what that costs.
 bool mayMirror(const Component& component, const TargetRequest& request)
 {
-	return request.measuresAreas && request.goal.kind == ConeGoal::LeastCost &&
-		   request.rounding == ConeRounding::Free &&
+	return request.measuresAreas && request.rounding == ConeRounding::Free &&
 		   (request.target == TargetCurvature::Automatic ||
 			request.target == TargetCurvature::PlacedCones) &&
 		   component.lengths.empty() && !component.hasSeam;
@@ -69,8 +68,7 @@ TargetRequest targetRequest(
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
-	if (mayMirror(component, request))
-		request.goal.mirror = findMirror(domain.surface, domain.onHole);
+	request.mayMirror = mayMirror(component, request);
 	return request;
 }
 
@@ -357,6 +355,8 @@ void completePlan(const Options& options, FlowPlan& plan)
 	if (options.method == Method::EdgeSwaps)
 		return;
 	advance(0.0, "Choosing the target");
+	if (plan.request.mayMirror && plan.request.goal.kind == ConeGoal::LeastCost)
+		plan.request.goal.mirror = findMirror(plan.domain.surface, plan.domain.onHole);
 	plan.target = chooseTarget(plan.domain.solved(), plan.start, plan.request); // 5.2, 5.3
 }
 

@@ -116,13 +116,16 @@ Parametrization withOtherCones(
 	double alternative,
 	Parametrization map)
 {
-	const auto cost = [&] { return std::min(costOf(map).total(), alternative); };
+	double own = costOf(map).total();
+	const auto cost = [&] { return std::min(own, alternative); };
 	const auto take = [&](std::optional<Parametrization> next) {
 		if (!next)
 			return;
 		const int steps = map.report.iterations + next->report.iterations;
-		if (costOf(*next).total() < costOf(map).total())
+		if (const double ofNext = costOf(*next).total(); ofNext < own) {
+			own = ofNext;
 			map = *std::move(next);
+		}
 		map.report.iterations = steps;
 	};
 	const std::string otherwise = "the map before it stays";
@@ -174,7 +177,7 @@ Parametrization mirroredOrNot(
 {
 	auto other =
 		otherMap(component, input, options, "the mirrored map stays", [&](TargetRequest& request) {
-			request.goal.mirror = nullptr;
+			request.mayMirror = false;
 			request.alternative = alternative;
 		});
 	if (!other)

@@ -152,8 +152,15 @@ private:
 			appendDone();
 	}
 
+	/// The whole takes no memory before a component is mapped.
 	void appendDone()
 	{
+		const std::size_t vertices = m_opened.mesh.positions.size();
+		if (m_whole.u.size() < vertices) {
+			m_whole.mesh.source = verticesOf(vertices);
+			m_whole.u.assign(vertices, 0.0);
+			m_whole.targetCurvature.assign(vertices, 0.0);
+		}
 		for (; positionOf(m_appended) < m_mapped.size(); ++m_appended) {
 			const Original& original = m_originals[positionOf(m_appended)];
 			Mapped& own = m_mapped[positionOf(original.number)];
@@ -226,9 +233,6 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 		whole.values.selected[positionOf(opened.joined[v])] |= input.selected[v];
 	extendToCopies(opened, whole.values.selected);
 	extendToCopies(opened, whole.values.targetCurvature);
-	map.mesh.source = verticesOf(opened.mesh.positions.size());
-	map.u.assign(opened.mesh.positions.size(), 0.0);
-	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
 	Report& report = map.report;
 	report.joinedEdges = opened.joinedEdges;
 	report.piecesApart = opened.piecesApart;

@@ -39,11 +39,11 @@ LinearFlow::LinearFlow(
 	const EmbeddedSurface& surface, InitialPacking& start, ConeBoundary boundary) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
-	m_unfactored = mapOf(
+	const auto map = mapOf(
 		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
-	m_curvature = m_unfactored->curvature();
-	computeAreas(*m_unfactored);
-	layOut(surface, boundary);
+	m_curvature = map->curvature();
+	computeAreas(*map);
+	layOut(surface, *map, boundary);
 	if (start.isDelaunay)
 		start.hessian = m_hessian;
 }
@@ -56,16 +56,17 @@ LinearFlow::LinearFlow(
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
 		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
 {
-	m_unfactored = flow.doubled
-					   ? mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}))
-					   : flow.metric;
-	layOut(surface, boundary);
+	const auto map = flow.doubled
+						 ? mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}))
+						 : flow.metric;
+	layOut(surface, *map, boundary);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
-		m_system(std::make_unique<SparseCholesky>()), m_fixesBoundary(system.fixesBoundary),
-		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
-		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
+		m_system(std::make_unique<SparseCholesky>()), m_isFactored(true),
+		m_fixesBoundary(system.fixesBoundary), m_curvature(std::move(system.curvature)),
+		m_area(std::move(system.area)), m_factor(std::move(system.factor)),
+		m_sink(std::move(system.sink))
 {
 	for (int v = 0; v < vertexCount(); ++v)
 		m_row.push_back(m_fixesBoundary ? v : v - 1);
@@ -129,19 +130,20 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 
 void LinearFlow::factorize()
 {
-	if (m_unfactored && m_unknowns > 0)
-		m_hessian->factorize(*m_unfactored);
-	m_unfactored.reset();
+	if (!m_isFactored && m_unknowns > 0)
+		m_hessian->factorize();
+	m_isFactored = true;
 }
 
-void LinearFlow::layOut(const EmbeddedSurface& surface, ConeBoundary boundary)
+void LinearFlow::layOut(
+	const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary)
 {
 	m_hessian = std::make_shared<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
-		m_unfactored->scaleInvariant());
+		map.scaleInvariant());
 	m_row = m_hessian->row();
 	m_unknowns = m_hessian->unknowns();
-	m_hessian->fill(*m_unfactored, 0.0);
+	m_hessian->fill(map, 0.0);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		m_sink = boundaryShares(surface);
 }

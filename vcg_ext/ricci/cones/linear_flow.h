@@ -103,13 +103,13 @@ public:
 
 private:
 	void computeAreas(const CurvatureMap& map);
-	void layOut(const EmbeddedSurface& surface, ConeBoundary boundary);
+	void layOut(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
 	std::shared_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
-	std::shared_ptr<const CurvatureMap> m_unfactored; // null where L is factorised
-	VertexArray<int> m_row;                           // of the unknown, or -1
+	bool m_isFactored = false;                  // L
+	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;

@@ -314,6 +314,8 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 		layOut(map);
 		m_revision = map.revision();
 	}
+	m_hasBroken = map.brokenTriangles() > 0;
+	m_shift = shift;
 	double* value = m_matrix.valuePtr();
 	std::fill(value, value + m_matrix.nonZeros(), 0.0);
 	for (const int slot : m_diagonal)
@@ -346,20 +348,33 @@ double FactoredHessian::largestDiagonal() const
 	return largest;
 }
 
+void FactoredHessian::shiftBy(double more)
+{
+	for (const int slot : m_diagonal)
+		m_matrix.valuePtr()[slot] += more;
+	m_shift += more;
+}
+
 bool FactoredHessian::factorize(const CurvatureMap& map)
 {
-	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
-	fill(map, shift);
+	fill(map, map.brokenTriangles() > 0 ? kRegularisation : 0.0);
+	return factorize();
+}
+
+bool FactoredHessian::factorize()
+{
+	if (m_hasBroken && m_shift == 0.0)
+		shiftBy(kRegularisation);
 	m_isFactored = false;
 	const double scale = std::max(largestDiagonal(), 1.0);
 	while (!m_cholesky.factorize(m_matrix)) {
-		shift = std::max(kShiftGrowth * shift, kManyRoundings * scale);
+		const double shift = std::max(kShiftGrowth * m_shift, kManyRoundings * scale);
 		if (!(shift <= scale) || std::isinf(shift))
 			throw SolverFailed(SolverFailed::Flow);
-		fill(map, shift);
+		shiftBy(shift - m_shift);
 	}
 	m_isFactored = true;
-	m_isShifted = shift > 0.0;
+	m_isShifted = m_shift > 0.0;
 	return !m_isShifted;
 }
 

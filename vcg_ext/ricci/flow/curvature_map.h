@@ -173,10 +173,13 @@ public:
 	/// where the connectivity has another revision than at the last call. The factor stays.
 	void fill(const CurvatureMap& map, double shift);
 
-	/// Factorises the matrix at the state of \p map. Where it is not positive definite, and where
-	/// triangles are broken (their derivatives are 0), a shift is added to the diagonal.
+	/// Factorises the matrix as it is filled. Where it is not positive definite, and where triangles
+	/// were broken (their derivatives are 0), a shift is added to the diagonal.
 	/// \return whether the factor is that of the matrix without a shift
 	/// \throw SolverFailed where no shift makes it positive definite
+	bool factorize();
+
+	/// The same at the state of \p map.
 	bool factorize(const CurvatureMap& map);
 
 	bool isFactored() const { return m_isFactored; }
@@ -191,10 +194,13 @@ public:
 private:
 	void layOut(const CurvatureMap& map);
 	double largestDiagonal() const;
+	void shiftBy(double more);
 
 	VertexArray<int> m_row;
 	int m_unknowns = 0;
-	int m_revision = -1; // of the map, when the pattern was laid out
+	int m_revision = -1;      // of the map, when the pattern was laid out
+	bool m_hasBroken = false; // triangles, as it is filled
+	double m_shift = 0.0;     // on the diagonal
 	bool m_isFactored = false;
 	bool m_isShifted = false;
 	Matrix m_matrix;

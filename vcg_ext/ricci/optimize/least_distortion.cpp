@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
+#include "../base/graphs.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../numerics/iteration.h"
@@ -42,12 +43,23 @@ DistortionLaplacian::DistortionLaplacian(const MeanDistortion& energy) :
 					use(row, column, m_slot[f][k]);
 			}
 	};
-	std::vector<Eigen::Triplet<double>> entries;
-	entries.reserve(3 * m_slot.values().size());
-	eachSide([&](int row, int column, Eigen::Index) { entries.emplace_back(row, column, 0.0); });
-	m_below.setFromTriplets(entries.begin(), entries.end());
-	eachSide([&](int row, int column, Eigen::Index& slot) {
-		slot = &m_below.coeffRef(row, column) - m_below.valuePtr();
+	// The rows of each column, in increasing order; the sides of two triangles have one entry.
+	Adjacency<int, int> rows(m_points.unknowns, [&](const auto& add) {
+		eachSide([&](int row, int column, int) { add(column, row); });
+	});
+	m_below.resizeNonZeros(static_cast<Eigen::Index>(rows.items().size()));
+	int* const first = m_below.outerIndexPtr();
+	int* const inner = m_below.innerIndexPtr();
+	for (int column = 0, slot = 0; column < m_points.unknowns; ++column) {
+		const ItemRange<int> own = rows[column];
+		std::sort(own.begin(), own.end());
+		slot = static_cast<int>(std::unique_copy(own.begin(), own.end(), inner + slot) - inner);
+		first[column + 1] = slot;
+	}
+	m_below.resizeNonZeros(first[m_points.unknowns]);
+	eachSide([&](int row, int column, int& slot) {
+		slot = static_cast<int>(
+			std::lower_bound(inner + first[column], inner + first[column + 1], row) - inner);
 	});
 }
 

@@ -42,7 +42,7 @@ private:
 
 	const MeanDistortion& m_energy;
 	const NumberedPoints& m_points;
-	Array<std::array<Eigen::Index, 3>> m_slot; // of the entry between corners k and k + 1, or -1
+	Array<Triangle> m_slot; // of the entry between corners k and k + 1, or -1
 
 	// The matrix with rows and columns scaled so that its diagonal is 1: the entries below that. By
 	// columns and by rows: both substitutions gather what they add up, which is faster than to scatter it.
