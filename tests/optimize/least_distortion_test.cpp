@@ -352,6 +352,37 @@ TEST(LeastDistortion, ATurnedTriangleDoesNotCount)
 	EXPECT_LE(d.flipped(), flipped);
 }
 
+/// Across every seam the same motion leads from one side to the other as before, and what is fixed stays.
+TEST(LeastStretch, LowersTheEnergyWithSeamsAsTheyAre)
+{
+	Random random(631);
+	for (CutMap& d : validMapsWithSeams(random)) {
+		const FlatMesh start = d.flat;
+		const PointGroups groups = d.groups();
+		EXPECT_FALSE(leastStretch(d.flat, groups));
+		EXPECT_EQ(d.flipped(), 0);
+		EXPECT_LT(costOf(d.flat, 0.0).energy, costOf(start, 0.0).energy - 1e-3);
+		for (const int p : start.place.indices())
+			EXPECT_TRUE(!groups.fixed[groups.group[p]] || d.flat.place[p] == start.place[p]);
+		const auto along = [](const FlatMesh& flat, Corner side) {
+			return asComplex(flat.at(side.next())) - asComplex(flat.at(side));
+		};
+		int seams = 0;
+		for (const Corner side : start.across.indices()) {
+			const Corner other = start.across[side];
+			if (!other.isValid() || start.joined(side).isValid())
+				continue;
+			++seams;
+			const Complex turn = along(start, side) / -along(start, other);
+			EXPECT_NEAR(
+				std::abs(along(d.flat, side) + turn * along(d.flat, other)),
+				0.0,
+				1e-9 * d.extent());
+		}
+		EXPECT_GT(seams, 0);
+	}
+}
+
 TEST(LeastDistortion, LeavesALayoutWithNothingToMove)
 {
 	const SurfaceMesh mesh = rectangle(1, 1, 2.0, 1.0);

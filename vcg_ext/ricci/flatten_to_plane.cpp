@@ -309,7 +309,7 @@ void finish(
 	map.finished = finishInPlane(
 		map.mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.hasFreeSeams = finish == Finish::LeastStretch;
-	if (finish == Finish::LeastDistortion)
+	if (finish == Finish::LeastDistortion && coneGoal(options.cones).kind == ConeGoal::LeastCost)
 		keepPromise(target, cones, map);
 	if (map.mesh.place != before) // its border may have moved
 		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
