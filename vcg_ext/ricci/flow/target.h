@@ -18,8 +18,9 @@
 
 namespace ricci {
 
-/// What a seam as long as the square root of the area costs.
-constexpr double kSeamPrice = 0.05;
+/// What a seam as long as the square root of the area costs. A map that costs so much more than it was expected to
+/// breaks its promise.
+constexpr double kSeamPrice = 0.05, kBrokenPromise = kSeamPrice;
 
 /// What one more cone must save beyond the price of its seam: charts with more cones overlap themselves
 /// more often, and are divided there by seams that no tree of cones foretells.
@@ -30,9 +31,6 @@ constexpr double kMirrorPrice = 0.015;
 
 /// Of the mean square of u in the energy, see expectedEnergy().
 constexpr double kEnergyPrice = 8.0;
-
-/// A map that costs so much more than it was expected to breaks its promise.
-constexpr double kBrokenPromise = 0.05;
 
 /// What a map costs, or is expected to.
 struct MapCost
