@@ -393,6 +393,8 @@ TEST(LeastDistortion, LeavesALayoutWithNothingToMove)
 	EXPECT_FALSE(d.improve());
 	EXPECT_TRUE(std::isfinite(energyOf(d)));
 	EXPECT_EQ(d.flat.place, start);
+	EXPECT_FALSE(leastStretch(d.flat, d.groups()));
+	EXPECT_EQ(d.flat.place, start);
 }
 
 } // namespace

@@ -29,6 +29,8 @@ bool leastStretch(FlatMesh& flat, const PointGroups& groups)
 	const double height = kMinHeight * flat.box().extent();
 	const Validity validity{height, kWantedHeights * height};
 	const Patch whole = wholePatch(flat, groups);
+	if (whole.variables == 0)
+		return false;
 	PatchEnergy energy(
 		flat,
 		groups,
