@@ -153,25 +153,21 @@ TEST(Uniformize, GivesPointsOfTheDiskAndTheIsometriesOfItsGroup)
 	}
 	EXPECT_NEAR(area, 4.0 * kPi, 1e-8);
 	ASSERT_EQ(disk.groups.size(), 1u);
-	const DiskGroup& group = disk.groups.front();
+	const FuchsianGroup& group = disk.groups.front();
 	ASSERT_EQ(group.handles.size(), 4u);
-	const auto product = [](const DiskMotion& p, const DiskMotion& q) {
-		return DiskMotion{p.a * q.a + p.b * std::conj(q.b), p.a * q.b + p.b * std::conj(q.a)};
-	};
-	const auto inverse = [](const DiskMotion& p) { return DiskMotion{std::conj(p.a), -p.b}; };
-	DiskMotion relation;
+	DiskIsometry relation;
 	for (const std::size_t i : {std::size_t(0), std::size_t(2)}) {
-		const DiskMotion &a = group.handles[i], &b = group.handles[i + 1];
-		for (const DiskMotion& letter : {a, b, inverse(a), inverse(b)})
-			relation = product(relation, letter);
+		const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
+		for (const DiskIsometry& letter : {a, b, a.inverse(), b.inverse()})
+			relation = relation * letter;
 	}
 	double size = 1.0; // by which products magnify rounding
-	for (const DiskMotion& p : group.handles)
+	for (const DiskIsometry& p : group.handles)
 		size *= std::norm(std::abs(p.a) + std::abs(p.b));
 	EXPECT_LT(std::abs(relation.b), 1e-14 * size);
 	EXPECT_LT(std::abs(std::abs(relation.a) - 1.0), 1e-14 * size);
 	for (std::size_t i = 0; i + 1 < group.sides.size(); i += 2) {
-		const DiskMotion one = product(group.sides[i], group.sides[i + 1]);
+		const DiskIsometry one = group.sides[i] * group.sides[i + 1];
 		EXPECT_NEAR(std::abs(one.a), 1.0, 1e-9);
 		EXPECT_NEAR(std::norm(group.sides[i].a) - std::norm(group.sides[i].b), 1.0, 1e-9);
 	}

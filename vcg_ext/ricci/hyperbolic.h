@@ -5,6 +5,7 @@
 #define RICCI_HYPERBOLIC_H
 
 #include "error.h"
+#include "layout/parametrization.h"
 #include "options.h"
 #include "progress.h"
 
@@ -13,23 +14,6 @@
 #include <vector>
 
 namespace ricci {
-
-/// An isometry of the Poincaré disk, z -> (a z + b) / (conj(b) z + conj(a)), |a|^2 - |b|^2 = 1 [Beardon 1983].
-struct DiskMotion
-{
-	std::complex<double> a{1.0, 0.0}, b{0.0, 0.0};
-};
-
-/// Isometries that generate the group by which the disk covers a component.
-struct DiskGroup
-{
-	std::vector<DiskMotion>
-		sides; ///< that pair the sides of the component cut open; each is followed by its inverse
-
-	/// a1, b1, ..., ag, bg with HyperbolicOptions::canonicalGenerators, and one for each boundary loop and cone:
-	/// [a1,b1] ... [ag,bg] e1 ... en is the identity.
-	std::vector<DiskMotion> handles, peripheral;
-};
 
 /// A mesh in the Poincaré disk.
 struct DiskCoordinates
@@ -44,9 +28,9 @@ struct DiskCoordinates
 	std::vector<int>
 		chart; ///< [triangle] from 0; -1: a face without area, drawn as a line or a point
 
-	/// [chart] Empty where the chart has no metric of its own: components without a hyperbolic metric lie in the last
+	/// [chart] Isometries that generate the group by which the disk covers the component. Empty where the chart has no metric of its own: components without a hyperbolic metric lie in the last
 	/// chart as the plane has them, and parts of a disk that is divided lie where their motion takes them.
-	std::vector<DiskGroup> groups;
+	std::vector<FuchsianGroup> groups;
 
 	double relationError = 0.0; ///< how far the relation of the generators is from the identity
 	int flippedFaces = 0;       ///< reversed or without area, once coordinates are rounded to float

@@ -48,15 +48,6 @@ TextureCoordinates inPlane(const SurfaceMesh& mesh, const Options& options, Prog
 		report.overlappingFaces};
 }
 
-std::vector<DiskMotion> motions(const std::vector<DiskIsometry>& isometries)
-{
-	std::vector<DiskMotion> motions;
-	motions.reserve(isometries.size());
-	for (const DiskIsometry& isometry : isometries)
-		motions.push_back({isometry.a, isometry.b});
-	return motions;
-}
-
 DiskCoordinates
 inDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, Progress* progress)
 {
@@ -78,11 +69,8 @@ inDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, Progress* prog
 	disk.triangles = std::move(map.mesh.points.values());
 	disk.face = std::move(map.mesh.face.values());
 	disk.chart = std::move(map.mesh.chart.values());
-	for (const Chart& chart : map.charts)
-		disk.groups.push_back(
-			{motions(chart.group.sides),
-			 motions(chart.group.handles),
-			 motions(chart.group.peripheral)});
+	for (Chart& chart : map.charts)
+		disk.groups.push_back(std::move(chart.group));
 	disk.relationError = report.relationError.value_or(0.0);
 	disk.flippedFaces = report.flippedFaces + report.flippedByRounding;
 	disk.overlappingFaces = report.overlappingFaces;
