@@ -86,7 +86,7 @@ TEST(Distortion, OfTrianglesWithoutArea)
 	const SurfaceMesh mesh = rectangle(2, 1, 2, 1);
 	std::vector<Plane> plane = flatMesh(mesh).corners().values();
 	plane[2][1] = plane[2][0];
-	const Distortion report = measured(mesh, plane);
+	const DistortionReport report = measured(mesh, plane);
 	EXPECT_NEAR(report.qcMax, 1.0, 1e-14);
 	EXPECT_NEAR(report.qcMean, 1.0, 1e-14);
 	const FlatMesh whole = flatMesh(rectangle(4, 3, 1.0, 1.0));

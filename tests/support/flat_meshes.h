@@ -55,10 +55,11 @@ inline Parametrization mapWith(FlatMesh mesh)
 }
 
 /// measureDistortion() of the map of face f to \p plane[f].
-inline ricci::Distortion measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
+inline DistortionReport measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
 {
+	std::vector<double> ofVertices;
 	return measureDistortion(
-		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane));
+		Array<Triangle>(mesh.triangles), mesh.positions, Array<Triangle2>(plane), ofVertices);
 }
 
 } // namespace ricci::testing

@@ -82,12 +82,11 @@ void measure(WholeMap& whole, const Array<Triangle2>& flat)
 {
 	Parametrization& map = whole.map;
 	const SurfaceMesh& mesh = whole.opened.mesh;
-	Distortion distortion =
+	static_cast<DistortionReport&>(map.report) =
 		mesh.lengths.empty()
-			? measureDistortion(map.mesh.vertices, map.mesh.onSurface(mesh.positions), flat)
-			: measureDistortion(map.mesh, flat);
-	map.vertexQC = std::move(distortion.vertexQC);
-	static_cast<DistortionReport&>(map.report) = std::move(distortion);
+			? measureDistortion(
+				  map.mesh.vertices, map.mesh.onSurface(mesh.positions), flat, map.vertexQC)
+			: measureDistortion(map.mesh, flat, map.vertexQC);
 }
 
 void measureInPlane(WholeMap& whole)
@@ -204,12 +203,7 @@ void requirePicture(const Options& options, const Report& report, int faces)
 	const int lost = report.flippedFaces + report.flippedByRounding + report.overlappingFaces;
 	if (!isOneChart(options) || !isFinished(options) || 3 * lost <= faces)
 		return;
-	const auto [least, most] =
-		std::minmax_element(report.areaFactors.begin(), report.areaFactors.end());
-	throw NotConverged(
-		NotConverged::LostInRounding,
-		positionOf(lost),
-		std::round(0.5 * std::log10(2.0) * (*most - *least)));
+	throw NotConverged(NotConverged::LostInRounding, positionOf(lost), scalesApart(report));
 }
 
 /// From charts to texture coordinates.

@@ -221,59 +221,43 @@ void alignWith(
 }
 
 /// Distortion and orientation of the straight triangles.
+/// \param areas in space
 /// \throw NotConverged LostInRounding where most of the surface has no picture left
-void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& map)
+void measure(
+	const Component& c,
+	const std::vector<double>& areas,
+	const VertexArray<Point3>& sphere,
+	SphereMap& map)
 {
-	std::vector<double> before, after;
-	double sum = 0.0, areaSum = 0.0, flippedArea = 0.0;
-	for (const Triangle& t : c.triangles) {
-		std::array<Point3, 3> own, image;
-		for (std::size_t k = 0; k < 3; ++k) {
-			own[k] = c.positions[Vertex(t[k])];
-			image[k] = sphere[Vertex(t[k])];
-		}
-		const Vector a = vec(image[1]) - vec(image[0]), b = vec(image[2]) - vec(image[0]);
+	Array<Triangle2> flat;
+	double flippedArea = 0.0;
+	for (std::size_t f = 0; f < areas.size(); ++f) {
+		const Triangle& t = c.triangles[f];
+		const Vector first = vec(sphere[Vertex(t[0])]);
+		const Vector a = vec(sphere[Vertex(t[1])]) - first, b = vec(sphere[Vertex(t[2])]) - first;
 		const Vector normal = a.cross(b);
-		const bool isFlipped = !(vec(image[0]).dot(normal) > 0.0);
-		map.flippedFaces += isFlipped;
-		before.push_back(triangleArea(own));
-		flippedArea += isFlipped ? before.back() : 0.0;
-		after.push_back(0.5 * normal.norm());
+		const bool isFlipped = !(first.dot(normal) > 0.0);
 		const double base = a.norm();
-		const double qc =
+		map.flippedFaces += isFlipped;
+		flippedArea += isFlipped ? areas[f] : 0.0;
+		flat.push_back(
 			base > 0.0
-				? quasiConformalDistortion(
-					  own, {{{0.0, 0.0}, {base, 0.0}, {a.dot(b) / base, normal.norm() / base}}})
-				: kInfinity;
-		if (!std::isfinite(qc))
-			continue;
-		sum += before.back() * qc;
-		areaSum += before.back();
-		map.qcMax = std::max(map.qcMax, qc);
+				? Triangle2{{{0.0, 0.0}, {base, 0.0}, {a.dot(b) / base, normal.norm() / base}}}
+				: Triangle2{});
 	}
-	const double total = std::accumulate(before.begin(), before.end(), 0.0);
-	if (!(areaSum > 0.0) || 2.0 * flippedArea > total) {
-		double smallest = 1.0, largest = 1.0;
-		for (std::size_t f = 0; f < before.size(); ++f)
-			if (const double ratio = after[f] / before[f] * total / (4.0 * kPi); ratio > 0.0) {
-				smallest = std::min(smallest, ratio);
-				largest = std::max(largest, ratio);
-			}
+	std::vector<double> ofVertices;
+	static_cast<DistortionReport&>(map) =
+		measureDistortion(Array<Triangle>(c.triangles), c.positions.values(), flat, ofVertices);
+	const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+	if (map.qcValues.empty() || 2.0 * flippedArea > total)
 		throw NotConverged(
-			NotConverged::LostInRounding,
-			positionOf(map.flippedFaces),
-			std::round(0.5 * std::log10(largest / smallest)));
-	}
-	map.qcAreaMean = sum / areaSum;
+			NotConverged::LostInRounding, positionOf(map.flippedFaces), scalesApart(map));
 	if (map.flippedFaces > 0)
 		logLine(
 			counted(
 				positionOf(map.flippedFaces), "face of the sphere is", "faces of the sphere are") +
 			" flipped: parts of the surface become too small there for straight faces or for "
 			"doubles.");
-	const DistortionReport areas = areaDistortion(before, after);
-	map.areaDistortionMean = areas.areaDistortionMean;
-	map.areaDistortionSpread = areas.areaDistortionSpread;
 }
 
 /// Takes over the numbers of the opened mesh, and draws the faces that it leaves out.
@@ -347,12 +331,10 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 			plane[Vertex(flat.mesh.vertices[corner])] = flat.mesh.at(corner);
 
 	VertexArray<double> weights(c.positions.size(), 0.0);
-	for (const Triangle& t : c.triangles) {
-		const double area = triangleArea(
-			{c.positions[Vertex(t[0])], c.positions[Vertex(t[1])], c.positions[Vertex(t[2])]});
-		for (const int v : t)
-			weights[Vertex(v)] += area / 3.0;
-	}
+	const std::vector<double> areas = triangleAreas(c.positions.values(), c.triangles, {});
+	for (std::size_t f = 0; f < areas.size(); ++f)
+		for (const int v : c.triangles[f])
+			weights[Vertex(v)] += areas[f] / 3.0;
 	VertexArray<Point3> sphere = toSphere(plane, weights, pole);
 	SphereMap map;
 	map.pole = opened.vertex[positionOf(c.vertex[pole])];
@@ -360,7 +342,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	map.maxCurvatureError = flat.report.maxCurvatureError;
 	map.offset = balanceByMoebius(sphere.values(), weights.values());
 	alignWith(c.positions, weights, sphere);
-	measure(c, sphere, map);
+	measure(c, areas, sphere, map);
 	const SphereCheck check = checkSphere(c.triangles, sphere.values());
 	// A face that spans more than a hemisphere is a straight triangle on the other side, flipped:
 	// one covering less.

@@ -5,13 +5,15 @@
 #include "mesh/surface_mesh.h"
 #include "options.h"
 #include "progress.h"
+#include "report.h"
 
 #include <vector>
 
 namespace ricci {
 
-/// A closed surface of genus 0 on the unit sphere.
-struct SphereMap
+/// A closed surface of genus 0 on the unit sphere. The distortion is that of the map from the mesh's triangles to the
+/// straight ones between the positions.
+struct SphereMap : DistortionReport
 {
 	/// [vertex] on the unit sphere, copies behind the mesh's own vertices where the mesh had to be cut
 	/// open; the origin at unused vertices.
@@ -22,10 +24,6 @@ struct SphereMap
 	int iterations = 0;              ///< Newton steps
 	double maxCurvatureError = 0.0;  ///< of the flow, radians
 	double offset = 0.0; ///< length of the mean of the positions, weighted by area: 0 if centred
-
-	/// Of the map from the mesh's triangles to the straight ones between the positions.
-	double qcAreaMean = 1.0, qcMax = 1.0;
-	double areaDistortionMean = 1.0, areaDistortionSpread = 0.0;
 	int flippedFaces =
 		0; ///< logged where there are any; seen from the centre, against the orientation of the rest; also faces
 		   ///< that span more than a hemisphere, which no straight triangle does

@@ -139,18 +139,15 @@ namespace {
 
 /// \param own own(triangle) on the surface
 template<class Own>
-Distortion measured(
+DistortionReport measured(
 	const Array<Triangle>& vertices,
-	std::size_t vertexCount,
 	const Own& own,
-	const Array<Triangle2>& plane)
+	const Array<Triangle2>& plane,
+	std::vector<double>& vertexQC)
 {
 	const std::vector<Triangle>& triangles = vertices.values();
-	Distortion result;
-	std::vector<double>& vertexQC = result.vertexQC;
-	vertexQC.assign(vertexCount, 0.0);
 	std::vector<double> faceQC(triangles.size());
-	std::vector<double> ringArea(vertexCount, 0.0), measured;
+	std::vector<double> ringArea(vertexQC.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
 	inParallel(vertices.size(), defaultThreads(), [&](int first, int last) {
@@ -176,7 +173,7 @@ Distortion measured(
 			ringArea[positionOf(v)] += area;
 		}
 	}
-	static_cast<DistortionReport&>(result) = areaDistortion(areaBefore, areaAfter);
+	DistortionReport result = areaDistortion(areaBefore, areaAfter);
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < vertexQC.size(); ++v) {
@@ -201,26 +198,39 @@ Distortion measured(
 
 } // namespace
 
-Distortion measureDistortion(
+DistortionReport measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
-	const Array<Triangle2>& plane)
+	const Array<Triangle2>& plane,
+	std::vector<double>& vertexQC)
 {
 	const auto own = [&](std::size_t f) {
 		const Triangle& t = vertices.values()[f];
 		return shapeOf(
 			{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
 	};
-	return measured(vertices, surface.size(), own, plane);
+	vertexQC.assign(surface.size(), 0.0);
+	return measured(vertices, own, plane, vertexQC);
 }
 
-Distortion measureDistortion(const FlatMesh& mesh, const Array<Triangle2>& plane)
+DistortionReport measureDistortion(
+	const FlatMesh& mesh, const Array<Triangle2>& plane, std::vector<double>& vertexQC)
 {
 	const auto own = [&](std::size_t f) -> TriangleShape {
 		const std::array<double, 3>& sides = mesh.lengths.values()[f];
 		return {sides[0], asComplex(triangleApex(sides[0], sides[2], sides[1]))};
 	};
-	return measured(mesh.vertices, mesh.source.values().size(), own, plane);
+	vertexQC.assign(mesh.source.values().size(), 0.0);
+	return measured(mesh.vertices, own, plane, vertexQC);
+}
+
+double scalesApart(const DistortionReport& distortion)
+{
+	const std::vector<double>& factors = distortion.areaFactors;
+	if (factors.empty())
+		return 0.0;
+	const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
+	return std::round(0.5 * std::log10(2.0) * (*most - *least));
 }
 
 Array<Triangle2> chordTriangles(const FlatMesh& mesh)

@@ -40,25 +40,24 @@ areaDistortion(const std::vector<double>& before, const std::vector<double>& aft
 /// 0 < \p share <= 1; NaN where there are none. None of them is NaN.
 double percentile(std::vector<double> values, double share);
 
-/// Distortion of a map, and of its vertices.
-struct Distortion : DistortionReport
-{
-	/// [vertex] Mean of qc over the triangles at it, weighted by their areas in space (paper 5.1); 1 where none has
-	/// any.
-	std::vector<double> vertexQC;
-};
-
 /// Measures the linear maps of triangles to the plane. Triangles without area in space are kept out of the means,
 /// and so are those of infinite distortion.
 /// \param surface [vertex] its place in space
 /// \param plane [triangle][corner]
-Distortion measureDistortion(
+/// \param vertexQC receives [vertex] the mean of qc over the triangles at it, weighted by their areas in space (paper
+/// 5.1); 1 where none has any
+DistortionReport measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
-	const Array<Triangle2>& plane);
+	const Array<Triangle2>& plane,
+	std::vector<double>& vertexQC);
 
 /// The same of a surface that is given by the lengths of its sides.
-Distortion measureDistortion(const FlatMesh& mesh, const Array<Triangle2>& plane);
+DistortionReport measureDistortion(
+	const FlatMesh& mesh, const Array<Triangle2>& plane, std::vector<double>& vertexQC);
+
+/// Orders of magnitude between the largest and the smallest of a map's scale factors.
+double scalesApart(const DistortionReport& distortion);
 
 /// Of a map to the Poincaré disk, what is measured is the map to the flat triangles with the corners of the
 /// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.
