@@ -46,7 +46,6 @@ void agreesAndDetects(Background background, double scale)
 		target[Vertex(3)] += 1e-6;
 		MetricCheck bad = check(map.lengths(), target);
 		EXPECT_NEAR(bad.curvatureError, 1e-6, 1e-11);
-		EXPECT_EQ(bad.vertex, Vertex(3));
 		target[Vertex(3)] = std::numeric_limits<double>::quiet_NaN(); // nothing prescribed
 		EXPECT_LT(check(map.lengths(), target).curvatureError, 1e-14);
 

@@ -132,10 +132,8 @@ MetricCheck checkMetric(
 		if (std::isnan(target[v]))
 			continue;
 		const double error = std::abs(curvature[v] - target[v]) - rounding[v];
-		if (!(error <= check.curvatureError)) {
+		if (!(error <= check.curvatureError))
 			check.curvatureError = std::isnan(error) ? kInfinity : error;
-			check.vertex = v;
-		}
 	}
 	return check;
 }
@@ -256,21 +254,11 @@ ChartCheck checkMap(const FlatMesh& chart, double tolerance)
 ChartCheck checkDisk(const FlatMesh& chart, double tolerance)
 {
 	ChartCheck check;
-	Point2 farthest{0.0, 0.0};
-	double minGap = 1.0;
 	for (const Triangle& triangle : chart.points)
-		for (const int point : triangle) {
-			const Point2& p = chart.place[point];
-			const double own = gap(p);
-			check.outside += !(own > 0);
-			if (own < minGap) {
-				minGap = own;
-				farthest = p;
-			}
-		}
+		for (const int point : triangle)
+			check.outside += !(gap(chart.place[point]) > 0);
 	if (check.outside > 0)
 		return check;
-	check.radius = distanceOf(farthest, Point2{0.0, 0.0});
 	CornerArray<double> length(3 * chart.size()); // of the side
 	for (const Corner side : length.indices())
 		length[side] = distanceOf(chart.at(side), chart.at(side.next()));

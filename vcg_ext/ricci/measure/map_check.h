@@ -29,7 +29,6 @@ struct MetricCheck
 	/// s = (a + b + c) / 2,
 	/// sin^2(theta/2) = S(s - b) S(s - c) / (S(b) S(c)).
 	double curvatureError = 0.0;
-	Vertex vertex; ///< where that is
 
 	int broken = 0; ///< triangles that break the triangle inequality
 };
@@ -67,8 +66,6 @@ struct ChartCheck
 
 	/// Triangles that the map flips or flattens although they are higher than the tolerance.
 	int flipped = 0;
-
-	double radius = 0.0; ///< disk: largest distance of a point from 0
 };
 
 /// Checks a chart in the plane. Orientation is exact.
