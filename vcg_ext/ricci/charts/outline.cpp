@@ -1,68 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline_packing.h"
 
-#include "../base/box_tree.h"
 #include "../base/numbers.h"
-#include "../base/task.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace ricci {
-
-namespace {
-
-using Segment = std::array<Point2, 2>;
-
-double distanceFrom(const Segment& s, const Point2& p)
-{
-	return distance(p, between(s[0], s[1], nearestOnSegment(s[0], s[1], p)));
-}
-
-bool cross(const Segment& s, const Segment& t)
-{
-	const auto isBetween = [](const Segment& line, const Segment& ends) {
-		return (doubledArea(line[0], line[1], ends[0]) > 0.0) !=
-			   (doubledArea(line[0], line[1], ends[1]) > 0.0);
-	};
-	return isBetween(s, t) && isBetween(t, s);
-}
-
-double distance(const Segment& s, const Segment& t)
-{
-	if (cross(s, t))
-		return 0.0;
-	return std::min(
-		{distanceFrom(s, t[0]),
-		 distanceFrom(s, t[1]),
-		 distanceFrom(t, s[0]),
-		 distanceFrom(t, s[1])});
-}
-
-/// Whether an outline goes round a point.
-bool contains(const Outline& outline, const Point2& p)
-{
-	int turns = 0;
-	for (const Segment& s : outline)
-		if ((s[0][1] <= p[1]) != (s[1][1] <= p[1])) {
-			const bool up = s[0][1] <= p[1];
-			if ((doubledArea(s[0], s[1], p) > 0.0) == up)
-				turns += up ? 1 : -1;
-		}
-	return turns != 0;
-}
-
-Box2 boxOf(const Segment& s, double padding)
-{
-	Box2 box;
-	for (const Point2& p : s) {
-		box.add(Point2{p[0] - padding, p[1] - padding});
-		box.add(Point2{p[0] + padding, p[1] + padding});
-	}
-	return box;
-}
-
-} // namespace
 
 Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 {
@@ -76,7 +19,7 @@ Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 			const auto [a, b] = mesh.ends(side);
 			const Corner other = mesh.joined(side);
 			if (a != b && !(other.isValid() && isFlipped(f) == isFlipped(other.face())))
-				outline.push_back(isFlipped(f) ? Segment{b, a} : Segment{a, b});
+				outline.push_back(isFlipped(f) ? std::array{b, a} : std::array{a, b});
 		}
 	std::sort(outline.begin(), outline.end());
 	return outline;
@@ -89,7 +32,7 @@ std::complex<double> uprightTurn(const Outline& outline)
 	std::vector<std::complex<double>> fourth;
 	std::array<double, kDegrees> lengths{};
 	double total = 0.0;
-	for (const Segment& s : outline) {
+	for (const auto& s : outline) {
 		const std::complex<double> side = asComplex(s[1] - s[0]);
 		const double length = std::abs(side);
 		const std::complex<double> square = length > 0.0 ? side / length * (side / length) : 0.0;
@@ -122,40 +65,6 @@ std::complex<double> uprightTurn(const Outline& outline)
 			return 0.0;
 	}
 	return std::conj(std::sqrt(std::sqrt(mean / std::abs(mean))));
-}
-
-bool keepApart(const std::vector<Outline>& outlines, double padding)
-{
-	std::vector<BoxTree> sides;
-	std::vector<Box2> charts;
-	for (const Outline& outline : outlines) {
-		std::vector<Box2> boxes;
-		Box2 whole;
-		for (const Segment& s : outline) {
-			boxes.push_back(boxOf(s, 0.5 * padding));
-			whole.add(boxes.back());
-		}
-		sides.emplace_back(boxes);
-		charts.push_back(whole);
-	}
-	std::size_t steps = 0;
-	bool apart = true;
-	BoxTree(charts).meetingPairs([&](int i, int j) {
-		std::size_t few = positionOf(i), many = positionOf(j);
-		if (outlines[few].size() > outlines[many].size())
-			std::swap(few, many);
-		const Outline &a = outlines[few], &b = outlines[many];
-		const auto isNear = [&](const Segment& s) {
-			checkpointNowAndThen(1024 * steps++);
-			return sides[many].meetsAny(boxOf(s, 0.5 * padding), [&](int side) {
-				return distance(s, b[positionOf(side)]) < padding;
-			});
-		};
-		// Where the sides keep apart, a chart that meets another lies in it.
-		apart = apart && std::none_of(a.begin(), a.end(), isNear) && !contains(a, b.front()[0]) &&
-				!contains(b, a.front()[0]);
-	});
-	return apart;
 }
 
 } // namespace ricci

@@ -33,10 +33,6 @@ Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
 /// its length, to a degree. Else 0.
 std::complex<double> uprightTurn(const Outline& outline);
 
-/// Whether no point of a chart is nearer than \p padding > 0 to another chart, or in it, as far as doubles
-/// tell.
-bool keepApart(const std::vector<Outline>& outlines, double padding);
-
 /// Cells along a side of the square in which packOutlines() first places so many outlines.
 int coarseCells(std::size_t outlines);
 

@@ -96,7 +96,7 @@ Packing packAlone(const FlatMesh& mesh, bool isUpright)
 /// \return without motions where boxes are better, or the outlines need more than that square and some more
 Packing packByOutlines(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square)
 {
-	PackItems items = packItems(mesh, charts, square);
+	const PackItems items = packItems(mesh, charts, square);
 	if (items.isMostlySmall)
 		return {};
 	const std::vector<Motion> motions = packOutlines(
@@ -105,13 +105,9 @@ Packing packByOutlines(const FlatMesh& mesh, const ChartsToPack& charts, const P
 		return {};
 	Packing packing;
 	for (std::size_t k = 0; k < items.outlines.size(); ++k)
-		for (auto& ends : items.outlines[k])
-			for (Point2& p : ends) {
-				p = motions[k](p);
-				packing.whole.add(p);
-			}
-	if (!keepApart(items.outlines, (1.0 - kMarginSpare) * square.padding))
-		return {};
+		for (const auto& ends : items.outlines[k])
+			for (const Point2& p : ends)
+				packing.whole.add(motions[k](p));
 	for (std::size_t i = 0; i < items.itemOf.size(); ++i)
 		packing.motions.push_back(items.motionOf(i, motions[items.itemOf[i]]));
 	return packing;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pack_items.h"
 
-#include "../base/convex_hull.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
 
@@ -9,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace ricci {
@@ -27,22 +25,6 @@ Outline borderOf(const Box2& box)
 	const Point2 &a = box.min, &c = box.max;
 	const Point2 b{c[0], a[1]}, d{a[0], c[1]};
 	return {{a, b}, {b, c}, {c, d}, {d, a}};
-}
-
-/// Whether the outline of a chart goes through all corners of the chart's hull. What has no area has no outline.
-bool reachesAsFar(const Outline& outline, const FlatMesh& mesh, const std::vector<int>& triangles)
-{
-	std::set<Point2> ends;
-	for (const auto& side : outline)
-		ends.insert(side[0]);
-	std::vector<Point2> points;
-	for (const int f : triangles)
-		for (const Point2& p : mesh.at(f))
-			points.push_back(p);
-	const std::vector<Point2> hull = convexHull(std::move(points));
-	return !outline.empty() && std::all_of(hull.begin(), hull.end(), [&](const Point2& p) {
-		return ends.count(p) > 0;
-	});
 }
 
 /// Adds one item for small charts, or one for each half of them if their box is too long.
@@ -230,7 +212,7 @@ PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const Pack
 		const std::size_t i = large[positionOf(k)];
 		Outline& outline = items.outlines[positionOf(k)];
 		outline = outlineOf(mesh, charts.triangles[i]);
-		if (!reachesAsFar(outline, mesh, charts.triangles[i]))
+		if (outline.empty()) // what has no area has none
 			outline = borderOf(boxes[i]);
 	});
 	for (const std::size_t i : large) {
