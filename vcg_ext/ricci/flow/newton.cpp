@@ -75,21 +75,13 @@ NewtonSolver::NewtonSolver(
 
 void NewtonSolver::beginWith(std::shared_ptr<FactoredHessian> hessian)
 {
-	if (hessian->row() != m_hessian->row())
-		return;
-	m_hessian = std::move(hessian);
-	m_workBefore = -m_hessian->cholesky().work();
+	if (hessian->row() == m_hessian->row())
+		m_hessian = std::move(hessian);
 }
 
 void NewtonSolver::dropSymmetry()
 {
-	m_workBefore = work();
 	m_hessian = std::make_shared<FactoredHessian>(m_fixed, m_map->scaleInvariant());
-}
-
-CholeskyWork NewtonSolver::work() const
-{
-	return m_workBefore + m_hessian->cholesky().work();
 }
 
 /// Computes the gradient; returns max |target - K|, infinity if it is not finite.

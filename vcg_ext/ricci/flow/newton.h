@@ -73,8 +73,8 @@ public:
 	/// Goes on with an unknown for every vertex.
 	void dropSymmetry();
 
-	/// What the linear solver has done for this one.
-	CholeskyWork work() const;
+	/// What its last linear solver has done, for others before, too.
+	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
 
 	/// SparseCholesky::order().
 	const EliminationOrder& order() const { return m_hessian->cholesky().order(); }
@@ -120,9 +120,8 @@ private:
 
 	CurvatureMap* m_map;
 	VertexArray<char> m_fixed;
-	CholeskyWork m_workBefore; // before dropSymmetry(), less what beginWith() has brought
-	bool m_gaugeFree = false;  // the mean of u is free
-	bool m_worn = false;       // the factor has become a bad preconditioner
+	bool m_gaugeFree = false; // the mean of u is free
+	bool m_worn = false;      // the factor has become a bad preconditioner
 	std::shared_ptr<FactoredHessian> m_hessian;
 	VertexVector m_gradient; // K - target, 0 where fixed
 	VertexVector m_direction, m_trial, m_diagonal;

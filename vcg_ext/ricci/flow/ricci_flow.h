@@ -36,7 +36,7 @@ struct FlowResult
 	double residual = 0.0;  ///< max |target - K|
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
-	CholeskyWork work; ///< of the linear solver, on the surface the result is from
+	CholeskyWork work; ///< of the last linear solver, before the flow, too
 	/// Of the linear solver: on the start's triangles where that has been factorised before, else on the last.
 	EliminationOrder order;
 

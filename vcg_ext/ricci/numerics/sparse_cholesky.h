@@ -17,20 +17,6 @@ struct CholeskyWork
 {
 	int orderings = 0, analyses = 0, factorizations = 0, solutions = 0;
 	double flops = 0.0; ///< floating-point operations of all of them
-
-	friend CholeskyWork operator+(const CholeskyWork& a, const CholeskyWork& b)
-	{
-		return {
-			a.orderings + b.orderings,
-			a.analyses + b.analyses,
-			a.factorizations + b.factorizations,
-			a.solutions + b.solutions,
-			a.flops + b.flops};
-	}
-	friend CholeskyWork operator-(const CholeskyWork& a)
-	{
-		return {-a.orderings, -a.analyses, -a.factorizations, -a.solutions, -a.flops};
-	}
 };
 
 /// The order in which a SparseCholesky eliminates unknowns.
