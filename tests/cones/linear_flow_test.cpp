@@ -236,7 +236,8 @@ TEST(OnAggregates, HasTheAreaTheCurvatureAndTheFactorsOfTheSurface)
 			EXPECT_NEAR(coarse.curvature().sum(), curvature, 1e-9);
 			for (const Vertex root : roots)
 				EXPECT_FALSE(isFixed && boundary[root]);
-			EXPECT_NEAR(flatteningSize(coarse), size, 0.03 * size);
+			// Two steps, each 2.7 to 3.3 times as stiff in place of 2.9.
+			EXPECT_NEAR(flatteningSize(coarse), size, 0.3 * size);
 			for (const int k : {roots.size() / 5, roots.size() / 2}) {
 				if (count == 300)
 					continue;

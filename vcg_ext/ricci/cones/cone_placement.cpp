@@ -293,7 +293,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 			checkCount(request, minConeCount(flow, total), *sites);
 		},
 		[&] {
-			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
+			coarse.emplace(onAggregates(std::move(whole), kMaxAggregates, roots));
 			found.emplace(*coarse, total, request.energyFactor);
 		});
 	besides(

@@ -92,9 +92,6 @@ public:
 	/// up to a constant where the sum of the curvatures is fixed.
 	Eigen::MatrixXd gradient(const Eigen::MatrixXd& u);
 
-	/// Divides L by \p factor. \pre made from a LinearSystem
-	void soften(double factor);
-
 	/// The equation on the vertices where u is unknown, which are put into \p vertices, increasing.
 	/// Where no u is fixed, the vertex that solve() holds is left out like a hole, and its curvature
 	/// and area go to its neighbours.
@@ -111,7 +108,6 @@ private:
 	bool m_isFactored = false;                  // L
 	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
-	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0
@@ -120,14 +116,14 @@ private:
 
 /// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
 /// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
-/// until the curvature of the surface gives factors u of the right size (overcorrection
-/// [Braess 1995]). They are those of the surface to some percent, except for a cone's own aggregate.
-/// \param whole of a LinearFlow, which need not be factorised
+/// so that the factors u get the right size (overcorrection [Braess 1995]). They are those of the surface to
+/// about a tenth for each time that vertices are taken together, except for a cone's own aggregate.
+/// \param system of a LinearFlow, which need not be factorised
 /// \param vertices to take together until there are at most so many
-/// \param roots the vertices of \p whole; receives by aggregate the one from which it grew
+/// \param roots the vertices of \p system; receives by aggregate the one from which it grew
 /// \return the flow with arrays by aggregate in place of arrays by vertex
 /// \throw SolverFailed
-LinearFlow onAggregates(const LinearSystem& whole, int vertices, VertexArray<Vertex>& roots);
+LinearFlow onAggregates(LinearSystem system, int vertices, VertexArray<Vertex>& roots);
 
 } // namespace ricci
 

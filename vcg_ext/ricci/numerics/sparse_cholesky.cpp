@@ -6,12 +6,12 @@
 #include "../error.h"
 #include "cholmod_checkpoint.h"
 #include "one_thread.h"
-#include "preconditioner.h"
 
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -401,6 +401,19 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& r
 	}
 	return x;
 }
+
+namespace {
+
+/// A function in the form of a preconditioner of Eigen: what stands for the inverse of the matrix.
+struct Preconditioner
+{
+	std::function<Eigen::VectorXd(const Eigen::VectorXd& residual)> solve;
+
+	Preconditioner& compute(const SparseCholesky::Matrix&) { return *this; }
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+};
+
+} // namespace
 
 int SparseCholesky::iterate(
 	const Matrix& matrix,
