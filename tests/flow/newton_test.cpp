@@ -49,14 +49,6 @@ VertexVector moved(VertexVector u, double spread, Random& random)
 	return u;
 }
 
-NewtonOptions upTo(double epsilon, int maxIterations = 200)
-{
-	NewtonOptions options;
-	options.epsilon = epsilon;
-	options.maxIterations = maxIterations;
-	return options;
-}
-
 /// A solver on one surface, and what it was last asked for.
 struct Solve
 {
@@ -67,9 +59,9 @@ struct Solve
 	VertexVector u = mesh.u();
 	NewtonResult result = {};
 
-	Solve& to(const VertexVector& target, const NewtonOptions& options = {})
+	Solve& to(const VertexVector& target, double epsilon = 1e-8)
 	{
-		result = solver.solve(u, target, options, [](int, double) {});
+		result = solver.solve(u, target, epsilon, NewtonSolver::kMaxSteps, [](int, double) {});
 		// By a map of its own.
 		Map other = mesh.map();
 		other.evaluate(u, solver.low());
@@ -101,13 +93,13 @@ TEST(Newton, ReachesTheRoundingFloor)
 	for (const Packed& mesh :
 		 {Packed(tetrahedron()), bumpy(70, 16, 10), Packed(perforatedSlab(2, 3))}) {
 		Solve solve{mesh};
-		EXPECT_TRUE(solve.to(smoothedCurvature(mesh), upTo(1e-300)).result.converged);
+		EXPECT_TRUE(solve.to(smoothedCurvature(mesh), 1e-300).result.converged);
 		EXPECT_LT(solve.result.iterations, 30);
 		EXPECT_GT(solve.result.floor, 0.0);
 		EXPECT_LT(solve.result.floor, kMaxFloor);
 		EXPECT_LT(solve.result.residual, std::min(20 * solve.result.floor, 1e-11));
 		// At the solution no step is needed.
-		EXPECT_EQ(solve.to(smoothedCurvature(mesh), upTo(1e-11)).result.iterations, 0);
+		EXPECT_EQ(solve.to(smoothedCurvature(mesh), 1e-11).result.iterations, 0);
 		EXPECT_TRUE(solve.result.converged);
 	}
 }
@@ -175,7 +167,7 @@ TEST(Newton, AStepIsAddedWithoutRounding)
 	fixed[Vertex(0)] = 1;
 	NewtonSolver solver(map, fixed);
 	VertexVector u = start;
-	solver.solve(u, zero(mesh), upTo(1e-8, 1), [](int, double) {});
+	solver.solve(u, zero(mesh), 1e-8, 1, [](int, double) {});
 	ASSERT_GE(map.asked.size(), 4u);
 	int larger = 0, inexact = 0;
 	for (const Vertex v : start.indices()) {

@@ -361,7 +361,10 @@ std::optional<Metric> changed(
 	result.u = metric.u;
 	const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {
 		return NewtonSolver(*next, flow.target.fixed)
-			.solve(result.u, flow.target.curvature, {epsilon}, [](int, double) { checkpoint(); });
+			.solve(
+				result.u, flow.target.curvature, epsilon, NewtonSolver::kMaxSteps, [](int, double) {
+					checkpoint();
+				});
 	});
 	steps += solved ? solved->iterations : 0;
 	if (!solved || !solved->converged || next->brokenTriangles() > 0)

@@ -307,12 +307,6 @@ bool FlowRun::solve()
 	return m_solved.converged;
 }
 
-bool FlowRun::solveRoughly(double epsilon)
-{
-	m_solved = solveFor(std::max(epsilon, m_options.epsilon), false);
-	return m_solved.converged;
-}
-
 /// A disk that becomes round (paper 5.2): its boundary is inscribed in a circle. The exterior angles
 /// follow the boundary's lengths, solve by solve (a fixed point, with Anderson mixing), and the Moebius
 /// freedom of the disk is fixed by the conformal barycentre of the original boundary, which is brought to
@@ -360,13 +354,14 @@ NewtonResult FlowRun::solveOnCircle()
 	throw withState(NotConverged(NotConverged::CircleUnsettled, 0, change));
 }
 
-NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
+NewtonResult FlowRun::solveFor(double epsilon)
 {
 	const int before = m_result.iterations;
 	return m_newton->solve(
 		m_result.u,
 		m_result.target.curvature,
-		{epsilon, m_maxSteps, polishes},
+		epsilon,
+		m_maxSteps,
 		[&](int step, double residual) {
 			m_result.iterations = before + step;
 			m_progress(m_result.iterations, residual);

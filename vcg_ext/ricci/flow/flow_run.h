@@ -71,11 +71,6 @@ public:
 	/// \throw NotConverged if a circular boundary does not settle; SolverFailed
 	bool solve();
 
-	/// Runs the flow up to \p epsilon, from where solve() goes on.
-	/// \return whether that is reached
-	/// \pre the target is not circular
-	bool solveRoughly(double epsilon);
-
 	/// Whether a boundary edge would have to flip in the double: the circle of its triangle extends
 	/// beyond it.
 	bool bendsAtBoundary() const;
@@ -95,7 +90,7 @@ private:
 	void begin();
 	VertexVector startU() const;
 	NewtonResult solveOnCircle();
-	NewtonResult solveFor(double epsilon, bool polishes = true);
+	NewtonResult solveFor(double epsilon);
 	double spreadOfScales() const;
 	std::vector<Edge> loopEdges() const;
 	std::vector<double> presentLoopLengths() const;
@@ -107,7 +102,7 @@ private:
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;          // its target is that on the double, if there is one
 	VertexArray<Vertex> m_mirror; // [vertex of a double] its image; empty on the surface
-	int m_maxSteps = NewtonOptions().maxIterations;
+	int m_maxSteps = NewtonSolver::kMaxSteps;
 	VertexVector m_startU;
 	std::shared_ptr<CurvatureMap> m_map;
 	std::unique_ptr<NewtonSolver> m_newton;

@@ -154,7 +154,8 @@ struct NewtonSolver::Run
 {
 	VertexVector& u;
 	const VertexVector& target;
-	const NewtonOptions& options;
+	double epsilon;
+	int maxSteps;
 	const Surgeon& surgeon;
 	NewtonResult result = {};   // so far
 	double firstNorm = 0.0;     // of the gradient, kStagnationSteps ago
@@ -167,11 +168,12 @@ struct NewtonSolver::Run
 NewtonResult NewtonSolver::solve(
 	VertexVector& u,
 	const VertexVector& target,
-	const NewtonOptions& options,
+	double epsilon,
+	int maxSteps,
 	const std::function<void(int, double)>& report,
 	const Surgeon& surgeon)
 {
-	Run run{u, target, options, surgeon};
+	Run run{u, target, epsilon, maxSteps, surgeon};
 	m_map->evaluate(u, m_low);
 	m_map->accept();
 	run.result.residual = residual(target);
@@ -193,14 +195,12 @@ NewtonSolver::Verdict NewtonSolver::judge(Run& run)
 	NewtonResult& result = run.result;
 	result.floor = roundingFloor();
 	const bool isMetric = m_map->brokenTriangles() == 0;
-	const double bound =
-		isMetric ? result.floor : std::min(run.options.epsilon, result.floor); // a minimum
+	const double bound = isMetric ? result.floor : std::min(run.epsilon, result.floor); // a minimum
 	if (result.residual <= bound || run.isStuck || m_hessian->unknowns() == 0)
 		return Verdict::Stop;
-	if (!isMetric || !(result.residual < run.options.epsilon))
-		return result.iterations < run.options.maxIterations ? Verdict::Step : Verdict::Stop;
-	return run.options.polishes && run.polishing < kPolishingSteps ? Verdict::Polish
-																   : Verdict::Stop;
+	if (!isMetric || !(result.residual < run.epsilon))
+		return result.iterations < run.maxSteps ? Verdict::Step : Verdict::Stop;
+	return run.polishing < kPolishingSteps ? Verdict::Polish : Verdict::Stop;
 }
 
 /// Solves H d = -(K - target), with the last factor as long as that takes less work than a new one, or
@@ -307,7 +307,7 @@ NewtonResult NewtonSolver::ended(const Run& run) const
 	const bool atFloor = result.residual < kMaxFloor && result.residual <= observedFloor;
 	// Where the weights overflow there is no metric, however large epsilon is.
 	const bool isMetric = m_map->brokenTriangles() == 0 && std::isfinite(result.floor);
-	result.converged = isMetric && (result.residual < run.options.epsilon || atFloor);
+	result.converged = isMetric && (result.residual < run.epsilon || atFloor);
 	return result;
 }
 

@@ -9,14 +9,6 @@
 
 namespace ricci {
 
-/// When Newton's method stops.
-struct NewtonOptions
-{
-	double epsilon = 1e-8;   ///< radians: wanted bound of max |target - K|
-	int maxIterations = 200; ///< fewer than 30 are needed as a rule
-	bool polishes = true;    ///< goes on beyond epsilon with the factor that is there
-};
-
 struct NewtonResult
 {
 	bool converged = false;
@@ -58,6 +50,9 @@ public:
 	/// which the map is evaluated again.
 	using Surgeon = std::function<bool(CurvatureMap&)>;
 
+	/// Fewer than 30 are needed as a rule.
+	static constexpr int kMaxSteps = 200;
+
 	/// \param map is evaluated by solve(); must live as long as the solver
 	/// \param fixed 1 where u keeps its value (du = 0 in paper 5.3); the target is ignored there.
 	/// If nothing is fixed and the background is scale invariant, the mean of u is kept.
@@ -85,6 +80,7 @@ public:
 	/// Solves from \p u, which holds the solution afterwards (to its last place; the map is left at
 	/// the solution's full precision, from which a further call with the same \p u goes on).
 	/// \param target K at each vertex, radians
+	/// \param epsilon radians: wanted bound of max |target - K|
 	/// \param report is called with the iteration number and the residual before each step; it may
 	/// throw to cancel
 	/// \return also where the target is not reached: lack of convergence is not an error here
@@ -92,7 +88,8 @@ public:
 	NewtonResult solve(
 		VertexVector& u,
 		const VertexVector& target,
-		const NewtonOptions& options,
+		double epsilon,
+		int maxSteps,
 		const std::function<void(int, double)>& report,
 		const Surgeon& surgeon = nullptr);
 

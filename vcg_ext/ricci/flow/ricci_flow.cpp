@@ -17,9 +17,6 @@ namespace {
 /// Newton steps given to the surface itself where its double can be solved instead.
 constexpr int kStepsBeforeDoubling = 40;
 
-/// Radians. Where the boundary bends when the surface itself is solved so far, its double is solved.
-constexpr double kRoughEpsilon = 0.3;
-
 } // namespace
 
 InitialPacking initialPacking(const EmbeddedSurface& surface, const FlowOptions& options)
@@ -45,14 +42,9 @@ FlowResult runRicciFlow(
 
 	// After errors other than a stop the double may do better.
 	run.limitSteps(kStepsBeforeDoubling);
-	const bool isPrescribed = !target.hasFixed();
-	bool isRough = false; // a rough solution has shown that the boundary bends
-	const bool solved = attempt("the double of the surface is tried", [&] {
-							isRough = isPrescribed && !target.circular &&
-									  run.solveRoughly(kRoughEpsilon) && run.bendsAtBoundary();
-							return isRough || run.solve();
-						}).value_or(false);
-	if (solved && !isRough && !(isPrescribed && run.bendsAtBoundary()))
+	const bool solved =
+		attempt("the double of the surface is tried", [&] { return run.solve(); }).value_or(false);
+	if (solved && (target.hasFixed() || !run.bendsAtBoundary()))
 		return run.result();
 	run.end();
 	logLine(
@@ -77,13 +69,7 @@ FlowResult runRicciFlow(
 		const std::string alone =
 			"The result without the double is used, less conformal at the boundary";
 		logLine(alone + ", because its double fails (" + error.what() + ").");
-		if (!isRough)
-			return run.result();
-		FlowRun half(surface, initialPacking(surface, options), target, options, progress);
-		half.limitSteps(kStepsBeforeDoubling);
-		if (!attempt("it fails, too", [&] { return half.solve(); }).value_or(false))
-			throw;
-		return half.result();
+		return run.result();
 	}
 }
 
