@@ -43,34 +43,6 @@ void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
 	}
 }
 
-/// Lays the charts out in rows, so that they do not lie on each other.
-void setApart(Parametrization& map)
-{
-	const std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
-	double area = 0.0, width = 0.0;
-	for (const Box2& box : boxes) {
-		area += box.area();
-		width = std::max(width, box.width());
-	}
-	width = std::max(width, std::sqrt(area));
-	std::vector<Point2> shifts;
-	Point2 corner{0.0, 0.0};
-	double height = 0.0; // of the row
-	for (const Box2& box : boxes) {
-		if (corner[0] > width) {
-			corner = {0.0, corner[1] + height};
-			height = 0.0;
-		}
-		shifts.push_back(corner - box.min);
-		corner[0] += box.width();
-		height = std::max(height, box.height());
-	}
-	const Array<int> chart = map.mesh.chartOfPoints();
-	for (const int p : map.mesh.place.indices())
-		if (chart[p] >= 0)
-			map.mesh.place[p] += shifts[positionOf(chart[p])];
-}
-
 /// Gives each connected set of flipped triangles points of their own, and lays it reflected to the right of
 /// all others: there it covers nothing but itself.
 /// \return whether there are any
@@ -284,7 +256,6 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 void joinCharts(Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
-	setApart(map);
 	const Parts parts = joinParts(mesh, mesh.trianglesByChart(map.charts.size()));
 	map.charts.assign(parts.size(), {});
 	std::vector<int> charts;
