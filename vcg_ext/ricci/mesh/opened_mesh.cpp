@@ -123,9 +123,11 @@ public:
 					return isMarked(m_input.seam, side) || mapJumps(edge[0], side) || isSharp(side);
 				}))
 				for (const Corner side : edge)
-					opens = open(side) || opens;
+					if (open(side)) {
+						opens = true;
+						m_opened.seamLength += lengthOf(side);
+					}
 			m_opened.seamEdges += opens;
-			m_opened.seamLength += opens ? lengthOf(edge[0]) : 0.0;
 		});
 		splitVertices();
 		lengthenLoneSeams();
