@@ -156,39 +156,6 @@ Parametrization withOtherCones(
 	return map;
 }
 
-/// Whether the cones that were placed mirror each other.
-bool isMirrored(const Parametrization& map, const MirrorSymmetry& mirror)
-{
-	const std::vector<int>& cones = map.placedCones;
-	return std::all_of(cones.begin(), cones.end(), [&](int v) {
-		return std::find(cones.begin(), cones.end(), mirror.image[Vertex(v)].number()) !=
-			   cones.end();
-	});
-}
-
-/// A map with mirrored cones and seams, or one without that wish if it costs less by all that they may cost.
-/// \param alternative what another map costs
-Parametrization mirroredOrNot(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options,
-	double alternative,
-	Parametrization map)
-{
-	auto other =
-		otherMap(component, input, options, "the mirrored map stays", [&](TargetRequest& request) {
-			request.mayMirror = false;
-			request.alternative = alternative;
-		});
-	if (!other)
-		return map;
-	const int steps = map.report.iterations + other->report.iterations;
-	if ((1.0 + 2.0 * kMirrorPrice) * costOf(*other).total() < costOf(map).total())
-		map = *std::move(other);
-	map.report.iterations = steps;
-	return map;
-}
-
 /// The plan with the holes capped where that is expected to cost less: a loop round which the surface is nearly flat needs
 /// no seams to it then.
 /// \param plan complete; its holes are those that are capped by their length
@@ -298,18 +265,11 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 			return chosen(choice, *std::move(unfolded));
 		}
 	}
-	std::optional<MapCost> expected = plan.target.expected;
+	const std::optional<MapCost> expected = plan.target.expected;
 	const ConeGoal goal = plan.request.goal;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	if (goal.mirror && isMirrored(map, *goal.mirror)) {
-		// No other map costs less than is expected.
-		if (expected && costOf(map).total() > (1.0 + 2.0 * kMirrorPrice) * expected->total())
-			map = mirroredOrNot(component, input, options, totalOf(unfolded), std::move(map));
-		else
-			expected.reset(); // it costs no more than mirrors may
-	}
 	unfoldIfPoor(costOf(map).total());
 	if (goal.kind == ConeGoal::LeastCost && map.report.targetUsed == TargetUsed::PlacedCones)
 		map =
