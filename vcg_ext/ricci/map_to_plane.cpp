@@ -23,13 +23,14 @@ constexpr double kMaxCurvatureBetween = 0.25;
 /// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
 constexpr double kPoorCost = 6.0;
 
-/// Where a map of cones breaks its promise, others are tried: first those for what energy has turned
-/// out to cost, at most so many times what is expected, and then, if their map breaks the promise as well, those that
-/// bring the expected spread of areas below the second of the spreads. Where the map is poor all the same, all of these
-/// are tried: the linear model promises too much where scales differ much. Of 1800 refinements of thin bars with
-/// quarter turns, 696 cost more than twice the best map with the first two, 4 with all.
+/// Where a map of cones breaks its promise, others are tried: first those for what energy has turned out to cost, at most
+/// so many times what the map before was made for, and while the map is poor in so many rounds; if that does not help,
+/// those that bring the expected spread of areas below the first of the spreads and, while the map is poor, below the
+/// others: the linear model promises too much where scales differ much. Of 600 thin bars with quarter turns, three cost up
+/// to four times as much with the first spread alone.
 constexpr double kMaxEnergyFactor = 8.0;
-constexpr double kSpreadsInstead[] = {0.5, 0.25, 0.125, 0.0625, 0.03125};
+constexpr int kMaxFactorRounds = 3;
+constexpr double kSpreadsInstead[] = {0.25, 0.125, 0.0625, 0.03125};
 
 /// Capped holes are tried where the seams to them make at least this share of what the map is expected to cost above an
 /// isometry, or the map is poor. Of 92 components of shared meshes the 15 that gain have 0.37 and more, or are poor;
@@ -81,7 +82,7 @@ Parametrization chosen(const std::string& choice, Parametrization map)
 
 /// The map of a flow with other cones, without overlap.
 /// \param ask changes the TargetRequest
-/// \param isWorth whether to lay it out, with the Target that was chosen
+/// \param isWorth whether to lay out the Target that was chosen
 /// \return none where it is not worth that, or fails, which is told with \p otherwise
 template<class Ask>
 std::optional<Parametrization> otherMap(
@@ -106,53 +107,60 @@ std::optional<Parametrization> otherMap(
 }
 
 /// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
-/// \param expected what it was expected to cost; none where it may cost more
+/// \param promise what it was expected to cost
 /// \param alternative what another map costs
 Parametrization withOtherCones(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	const std::optional<MapCost>& expected,
+	MapCost promise,
 	double alternative,
 	Parametrization map)
 {
-	double own = costOf(map).total();
+	const double isometry = expectedEnergy(0.0);
+	double own = costOf(map).total(),
+		   energy = costOf(map).energy;              // of the best and of the last map
+	double factor = 1.0, promised = promise.total(); // by which the last was chosen
 	const auto cost = [&] { return std::min(own, alternative); };
-	const auto take = [&](std::optional<Parametrization> next) {
+	const auto isBroken = [&] { return cost() > promised + kBrokenPromise; };
+	const auto tryOther = [&](const auto& ask, const auto& isWorth) {
+		auto next = otherMap(component, input, options, "the map before it stays", ask, isWorth);
 		if (!next)
-			return;
+			return false;
+		energy = costOf(*next).energy;
 		const int steps = map.report.iterations + next->report.iterations;
 		if (const double ofNext = costOf(*next).total(); ofNext < own) {
 			own = ofNext;
 			map = *std::move(next);
 		}
 		map.report.iterations = steps;
+		return true;
 	};
-	const std::string otherwise = "the map before it stays";
-	bool isBroken = expected && cost() > expected->total() + kBrokenPromise;
-	if (isBroken) {
-		const double isometry = expectedEnergy(0.0);
-		const double promised = std::max(kTiny, expected->energy - isometry);
-		const double factor =
-			std::clamp((costOf(map).energy - isometry) / promised, 1.0, kMaxEnergyFactor);
-		double atFactor = expected->total(factor);
+	const auto tryFactor = [&] {
+		const double measured = (energy - isometry) / std::max(kTiny, promise.energy - isometry);
+		factor = std::clamp(measured, factor, kMaxEnergyFactor * factor);
+		if (promise.total(factor) <= promised + kBrokenPromise)
+			return false;
 		const auto ask = [&](TargetRequest& request) {
 			request.energyFactor = factor;
 			request.alternative = cost();
 		};
-		const auto isWorth = [&](const Target& target) {
-			atFactor = target.expected ? target.expected->total(factor) : kInfinity;
-			return atFactor < cost();
-		};
-		if (atFactor > expected->total() + kBrokenPromise)
-			take(otherMap(component, input, options, otherwise, ask, isWorth));
-		isBroken = cost() > atFactor + kBrokenPromise;
-	}
+		return tryOther(ask, [&](const Target& target) {
+			promise = target.expected.value_or(promise);
+			promised = target.expected ? promise.total(factor) : kInfinity;
+			return promised < cost();
+		});
+	};
+	for (int round = 0; round < kMaxFactorRounds && isBroken(); ++round)
+		if ((round > 0 && cost() <= kPoorCost) || !tryFactor())
+			break;
 	for (const double spread : kSpreadsInstead)
-		if (cost() > kPoorCost || (isBroken && spread == kSpreadsInstead[1]))
-			take(otherMap(component, input, options, otherwise, [&](TargetRequest& request) {
-				request.goal = {ConeGoal::Spread, 0, spread};
-			}));
+		if (cost() > kPoorCost || (isBroken() && spread == kSpreadsInstead[0]))
+			tryOther(
+				[&](TargetRequest& request) {
+					request.goal = {ConeGoal::Spread, 0, spread};
+				},
+				[](const Target&) { return true; });
 	return map;
 }
 
@@ -266,14 +274,14 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		}
 	}
 	const std::optional<MapCost> expected = plan.target.expected;
-	const ConeGoal goal = plan.request.goal;
+	const bool isForCost = plan.request.goal.kind == ConeGoal::LeastCost;
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
 	unfoldIfPoor(costOf(map).total());
-	if (goal.kind == ConeGoal::LeastCost && map.report.targetUsed == TargetUsed::PlacedCones)
+	if (expected && isForCost && map.report.targetUsed == TargetUsed::PlacedCones)
 		map =
-			withOtherCones(component, input, options, expected, totalOf(unfolded), std::move(map));
+			withOtherCones(component, input, options, *expected, totalOf(unfolded), std::move(map));
 	if (!unfolded)
 		return map;
 	const std::string whole = "as a whole: " + costText(map);

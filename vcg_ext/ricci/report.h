@@ -137,7 +137,7 @@ struct Report : FlowReport, InvariantReport, DistortionReport
 	int degenerateFaces = 0;     ///< faces without area that are drawn as lines or points
 
 	int chosenSeamEdges = 0;       ///< edges opened before the flow, as SurfaceMesh::seam asks for
-	double chosenSeamLength = 0.0; ///< of these, each once
+	double chosenSeamLength = 0.0; ///< of these, by each pair of sides
 
 	// The charts and their seams:
 	int charts = 0;

@@ -118,16 +118,14 @@ public:
 			return isCrease(normals[side.face()], sameWay ? -1.0 * n : n, std::cos(sharpAngle));
 		};
 		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
-			bool opens = false;
+			int pairs = 0; // of sides
 			if (std::any_of(edge.begin(), edge.end(), [&](Corner side) {
 					return isMarked(m_input.seam, side) || mapJumps(edge[0], side) || isSharp(side);
 				}))
 				for (const Corner side : edge)
-					if (open(side)) {
-						opens = true;
-						m_opened.seamLength += lengthOf(side);
-					}
-			m_opened.seamEdges += opens;
+					pairs += open(side);
+			m_opened.seamEdges += pairs > 0;
+			m_opened.seamLength += pairs * lengthOf(edge[0]);
 		});
 		splitVertices();
 		lengthenLoneSeams();

@@ -47,7 +47,7 @@ struct OpenedMesh
 	int oneSidedComponents = 0; ///< cut along one-sided loops
 
 	int seamEdges = 0;            ///< edges opened because they are marked, or sharp
-	double seamLength = 0.0;      ///< of these
+	double seamLength = 0.0;      ///< of these, by each pair of sides
 	int seamEdgesAdded = 0;       ///< edges by which seams of one edge alone were lengthened
 	double seamLengthAdded = 0.0; ///< of these
 
