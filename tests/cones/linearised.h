@@ -54,19 +54,6 @@ struct Linearised
 	}
 
 	double total() const { return surface.topology.type.totalCurvature(); }
-
-	/// Different vertices inside.
-	std::vector<Vertex> verticesInside(int count, Random& random) const
-	{
-		std::vector<Vertex> chosen;
-		while (static_cast<int>(chosen.size()) < count) {
-			const Vertex v(random.index(flow.vertexCount()));
-			if (!surface.topology.boundary[v] &&
-				std::find(chosen.begin(), chosen.end(), v) == chosen.end())
-				chosen.push_back(v);
-		}
-		return chosen;
-	}
 };
 
 /// The linear flow on a surface by dense matrices.
@@ -115,18 +102,7 @@ struct DenseFlow
 
 	/// The factor of the metric with curvature \p k.
 	VertexVector factor(const VertexVector& k) const { return solve(k - curvature); }
-
-	/// The field phi with L phi = A u, up to a constant: L is symmetric.
-	VertexVector gradient(const VertexVector& u) const { return solve(area.cwiseProduct(u)); }
 };
-
-/// |\p a - \p b| over |\p b|, largest entries, where both are known up to a constant.
-inline double relativeDifference(VertexVector a, VertexVector b, const VertexVector& area)
-{
-	a.array() -= area.dot(a);
-	b.array() -= area.dot(b);
-	return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
-}
 
 } // namespace ricci::testing
 

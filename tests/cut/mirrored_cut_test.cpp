@@ -1,91 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cuts that a mirror takes to themselves.
+// What a mirror takes to what, and where no cut is its own image.
 #include "support/random.h"
 #include "support/shapes.h"
 
-#include <ricci/base/graphs.h>
 #include <ricci/cut/cut_graph.h>
-#include <ricci/layout/planar_layout.h>
 #include <ricci/mesh/component.h>
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace ricci::testing {
 namespace {
 
-/// The corners between cut edges are the vertices of the opened surface, which is connected and has V - E + F = 1.
-void expectDisk(const Triangulation& t, const EdgeArray<char>& isCut)
+/// mirror_test.cpp has the cuts that there are.
+TEST(MirroredCut, IsNoneWhereConesHaveNoImages)
 {
-	DisjointSetsOf<Face> faces(t.faceCount());
-	int parts = t.faceCount(), edges = t.edgeCount();
-	for (const Edge e : t.edges()) {
-		edges += isCut[e];
-		if (!t.isBoundary(e) && !isCut[e])
-			parts -= faces.merge(t.face(e.halfedge()), t.face(e.halfedge().twin()));
-	}
-	EXPECT_EQ(parts, 1);
-	EXPECT_EQ(cornerWedges(t, isCut).points.size() - edges + t.faceCount(), 1);
-}
-
-/// Random cones and their images, some of them in the plane.
-VertexArray<char>
-someCones(const EmbeddedSurface& surface, const MirrorSymmetry& mirror, Random& random)
-{
-	VertexArray<char> cones(surface.triangulation.vertexCount(), 0);
-	for (int i = 0; i < 4; ++i) {
-		const Vertex v(random.index(cones.size()));
-		if (!surface.topology.boundary[v] && mirror.image[v].isValid())
-			cones[v] = cones[mirror.image[v]] = 1;
-	}
-	for (const Vertex v : cones.indices())
-		if (mirror.image[v] == v && !surface.topology.boundary[v] && random.index(20) == 0)
-			cones[v] = 1;
-	return cones;
-}
-
-TEST(MirroredCut, LeavesADiskAndIsItsOwnImage)
-{
-	Random random(977);
 	const SurfaceMesh ball = sphere(12, 16);
 	for (const SurfaceMesh& mesh :
-		 {ball,
-		  withoutStars(ball, {0}),
-		  withoutStars(ball, {0, 1 + 16 * 6 + 4}),
-		  withoutStars(ball, {1 + 16 * 6 + 2, 1 + 16 * 6 + 6}),
-		  torus(2.0, 0.7, 20, 12),
-		  perforatedSlab(2, 2)}) {
+		 {ball, withoutStars(ball, {0}), torus(2.0, 0.7, 20, 12), perforatedSlab(2, 2)}) {
 		const EmbeddedSurface surface =
 			embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
 		const Triangulation& t = surface.triangulation;
 		const auto mirror = findMirror(surface);
 		ASSERT_TRUE(mirror);
-		int found = 0;
-		for (int round = 0; round < 20; ++round) {
-			const VertexArray<char> cones = someCones(surface, *mirror, random);
-			const auto cut = mirroredCut(t, *mirror, surface.lengths, cones);
-			if (!cut)
-				continue;
-			++found;
-			expectDisk(t, cut->isCut);
-			VertexArray<char> reached(t.vertexCount(), 0);
-			double length = 0.0;
-			for (const Edge e : t.edges())
-				if (cut->isCut[e]) {
-					ASSERT_TRUE(mirror->edgeImage[e].isValid());
-					EXPECT_TRUE(cut->isCut[mirror->edgeImage[e]]);
-					length += surface.lengths[e];
-					for (const Vertex v : t.ends(e))
-						reached[v] = 1;
-				}
-			EXPECT_NEAR(cut->length, length, 1e-12 * length);
-			for (const Vertex v : t.vertices())
-				EXPECT_LE(cones[v], reached[v]);
-			EXPECT_EQ(static_cast<int>(cut->generators.size()), 2 * surface.topology.type.genus);
-		}
-		EXPECT_GT(found, 15);
-		// Cones without their images.
 		VertexArray<char> cones(t.vertexCount(), 0);
 		for (const Vertex v : t.vertices())
 			cones[v] = mirror->isAbove[v] && !surface.topology.boundary[v] && v.number() % 7 == 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surfaces that the flow runs on: their topology, caps on holes, doubles, creases.
+// The surfaces that the flow runs on: their topology, and creases.
+#include "support/expect.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -11,10 +12,33 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace ricci::testing {
 namespace {
+
+TEST(Triangulation, RefusesAnEdgeOfTwoTrianglesThatDisagree)
+{
+	const struct
+	{
+		int vertexCount;
+		std::vector<Triangle> triangles;
+		std::size_t sides;
+		std::array<int, 2> ends;
+	} cases[] = {
+		{4, {{0, 1, 2}, {0, 1, 3}}, 2, {0, 1}},
+		{5, {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}, 3, {0, 1}},
+		{5, {{0, 3, 1}, {1, 2, 4}, {3, 0, 2}, {4, 1, 2}}, 2, {1, 2}}};
+	for (const auto& c : cases) {
+		const auto error = refusalFor<InvalidMesh>(
+			InvalidMesh::IncoherentEdge,
+			{"between vertices " + std::to_string(c.ends[0]) + " and " + std::to_string(c.ends[1])},
+			[&] { Triangulation(c.vertexCount, c.triangles); });
+		EXPECT_EQ(error.count, c.sides);
+		EXPECT_EQ(error.vertices, c.ends);
+	}
+}
 
 TEST(Topology, OfSurfacesThatNoMeshHas)
 {

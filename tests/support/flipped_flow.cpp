@@ -17,21 +17,11 @@ namespace {
 /// Curvature above which a vertex counts as a cone.
 constexpr double kCone = 1e-9;
 
-EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
-{
-	return embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
-}
-
-EmbeddedSurface surfaceOf(const IntrinsicMesh& metric)
-{
-	return {metric.triangulation, {}, metric.lengths, topologyOf(metric.triangulation)};
-}
-
-FlowDomain domainOf(EmbeddedSurface surface)
+FlowDomain domainOf(const SurfaceMesh& mesh)
 {
 	FlowDomain domain;
-	domain.onHole.assign(surface.triangulation.vertexCount(), 0);
-	domain.surface = std::move(surface);
+	domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+	domain.onHole.assign(domain.surface.triangulation.vertexCount(), 0);
 	return domain;
 }
 
@@ -46,27 +36,13 @@ FlowOptions optionsOf(double epsilon)
 } // namespace
 
 FlippedFlow::FlippedFlow(const SurfaceMesh& m, const TargetRequest& request, double epsilon) :
-		mesh(m), domain(domainOf(surfaceOf(m)))
-{
-	run(request, epsilon);
-}
-
-FlippedFlow::FlippedFlow(
-	const IntrinsicMesh& metric, const TargetRequest& request, double epsilon) :
-		domain(domainOf(surfaceOf(metric)))
+		mesh(m), domain(domainOf(m))
 {
 	run(request, epsilon);
 }
 
 FlippedFlow::FlippedFlow(const SurfaceMesh& m, const HyperbolicRequest& request, double epsilon) :
-		mesh(m), domain(domainOf(surfaceOf(m)))
-{
-	run(request, epsilon);
-}
-
-FlippedFlow::FlippedFlow(
-	const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon) :
-		domain(domainOf(surfaceOf(metric)))
+		mesh(m), domain(domainOf(m))
 {
 	run(request, epsilon);
 }

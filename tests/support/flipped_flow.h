@@ -34,14 +34,9 @@ struct FlippedFlow
 	/// \throw what chooseTarget() and runRicciFlow() throw
 	FlippedFlow(const SurfaceMesh& mesh, const TargetRequest& request, double epsilon = 1e-10);
 
-	/// From any triangulation; targets that need places in space are not for it.
-	FlippedFlow(const IntrinsicMesh& metric, const TargetRequest& request, double epsilon = 1e-10);
-
-	/// Hyperbolic, on a mesh or on any triangulation.
+	/// Hyperbolic.
 	/// \throw what chooseHyperbolicTarget() and runRicciFlow() throw
 	FlippedFlow(const SurfaceMesh& mesh, const HyperbolicRequest& request, double epsilon = 1e-11);
-	FlippedFlow(
-		const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon = 1e-11);
 
 	const EmbeddedSurface& surface() const { return domain.surface; }
 	const Triangulation& base() const { return domain.surface.triangulation; }

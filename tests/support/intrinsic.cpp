@@ -15,9 +15,6 @@ namespace {
 
 constexpr long double kPi = 3.14159265358979323846264338327950288L;
 
-/// Least angle that a side of the quad may turn by at the ends of a flipped edge.
-constexpr long double kConvexityMargin = 1e-3L;
-
 /// Angle between sides a and b of a triangle, opposite c; 0 where there is no such triangle. The products are formed
 /// so that nothing is lost to cancellation (Kahan).
 long double angleOf(long double a, long double b, long double c)
@@ -28,13 +25,6 @@ long double angleOf(long double a, long double b, long double c)
 	const long double mu = c > b ? b - (a - c) : c - difference;
 	const long double sine = (difference + c) * mu, cosine = (a + (b + c)) * ((a - c) + b);
 	return sine > 0 && cosine > 0 ? 2 * std::atan(std::sqrt(sine / cosine)) : 0;
-}
-
-long double cornerAt(const IntrinsicMesh& mesh, Halfedge h)
-{
-	const Triangulation& t = mesh.triangulation;
-	const auto length = [&](Halfedge g) { return mesh.lengths[g.edge()]; };
-	return angleOf(length(h), length(t.previous(h)), length(t.next(h)));
 }
 
 Point3 onCircle(int i, int n)
@@ -133,30 +123,6 @@ std::vector<double> curvatureInSpace(const SurfaceMesh& mesh)
 	for (const long double k : measure.curvature)
 		curvature.push_back(static_cast<double>(k));
 	return curvature;
-}
-
-std::vector<Edge> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random)
-{
-	Triangulation& t = mesh.triangulation;
-	std::vector<Edge> flipped;
-	for (int i = 0; i < attempts; ++i) {
-		const Edge e(random.index(t.edgeCount()));
-		if (!t.isFlippable(e))
-			continue;
-		const Halfedge h = e.halfedge(), g = h.twin();
-		const long double start = cornerAt(mesh, h) + cornerAt(mesh, t.next(g));
-		const long double end = cornerAt(mesh, g) + cornerAt(mesh, t.next(h));
-		if (start > kPi - kConvexityMargin || end > kPi - kConvexityMargin)
-			continue;
-		const long double a = mesh.lengths[t.previous(h).edge()];
-		const long double b = mesh.lengths[t.next(g).edge()];
-		const long double sine = std::sin(start / 2);
-		mesh.lengths[e] =
-			static_cast<double>(std::sqrt((a - b) * (a - b) + 4 * a * b * sine * sine));
-		t.flip(e);
-		flipped.push_back(e);
-	}
-	return flipped;
 }
 
 SurfaceMesh fan(int sides, double height)

@@ -2,8 +2,6 @@
 #ifndef RICCI_TESTS_INTRINSIC_H
 #define RICCI_TESTS_INTRINSIC_H
 
-#include "random.h"
-
 #include <ricci/mesh/component.h>
 #include <ricci/mesh/opened_mesh.h>
 #include <ricci/mesh/surface_mesh.h>
@@ -49,10 +47,6 @@ struct MetricMeasure
 
 /// Curvature of the surface that a mesh is in space.
 std::vector<double> curvatureInSpace(const SurfaceMesh& mesh);
-
-/// Flips random edges, \p attempts times where the two triangles form a quad that is convex by a
-/// margin; the metric stays the same. Returns the flipped edges in order.
-std::vector<Edge> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random);
 
 /// Cone over a polygon with \p sides sides; a second, lower apex closes it.
 SurfaceMesh fan(int sides, double height);
