@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The groups of hyperbolic results: their relations, and the geodesics that they tell.
-#include "support/bolza.h"
 #include "support/complex.h"
+#include "support/disk.h"
 #include "support/random_surface.h"
 #include "support/reflected.h"
 #include "support/transform.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/bolza.h"
+#include "support/disk.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -70,8 +70,8 @@ TEST(Area, OfATriangleOfCurvatureMinusOneIsPiLessItsAngles)
 	RICCI_NEEDS_WIDE_LONG_DOUBLE();
 	Random random(71);
 	for (int i = 0; i < 2000; ++i) {
-		std::array<BolzaSurface::Complex, 3> p;
-		for (BolzaSurface::Complex& z : p) {
+		std::array<WideComplex, 3> p;
+		for (WideComplex& z : p) {
 			const long double r = std::sqrt(static_cast<long double>(random.real(0.0, 0.99)));
 			z = std::polar(r, static_cast<long double>(random.real(0.0, 6.28)));
 		}
