@@ -21,14 +21,16 @@
 #include <thread>
 
 #ifdef __linux__
-#include <unistd.h>
+#include <sched.h>
 
-/// In place of the library's: as many as the environment says.
-unsigned int std::thread::hardware_concurrency() noexcept
+/// In place of the system's: as many processors as the environment says, or two.
+extern "C" int sched_getaffinity(pid_t, std::size_t bytes, cpu_set_t* allowed) noexcept
 {
 	const char* count = std::getenv("RICCI_TEST_THREADS");
-	return count ? static_cast<unsigned int>(std::atoi(count))
-				 : static_cast<unsigned int>(sysconf(_SC_NPROCESSORS_ONLN));
+	CPU_ZERO_S(bytes, allowed);
+	for (int i = 0; i < (count ? std::atoi(count) : 2); ++i)
+		CPU_SET_S(static_cast<std::size_t>(i), bytes, allowed);
+	return 0;
 }
 #endif
 

@@ -64,7 +64,7 @@ factor=$(instructions '*solveOnce*' --flow-only --cone-distortion=1 generated:60
 no_more "instructions, flow over one factorisation" "$(quotient "$flow" "$factor")" 2.6
 # A complete run with cones, seams, charts and finish, on two sizes. Not one over the other: less work on the
 # small one would count as more on the large one.
-for bound in 6000:10 24000:7.3; do
+for bound in 6000:11 24000:8.6; do
 	mesh=slab:${bound%:*}
 	whole=$(instructions '*measureWholeWay*Row&)' --cone-distortion=0.25 "$mesh")
 	factor=$(instructions '*solveOnce*' --flow-only --cone-distortion=0.25 "$mesh")

@@ -12,15 +12,28 @@
 #include <exception>
 #include <thread>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace ricci {
+
+/// Processors that this process may use.
+inline int processors()
+{
+#ifdef __linux__
+	cpu_set_t allowed; // fails where it has too little room for all
+	if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
+		return CPU_COUNT(&allowed);
+#endif
+	return static_cast<int>(std::thread::hardware_concurrency());
+}
 
 /// Threads that loops over elements use by default.
 inline int defaultThreads()
 {
-	// No more than 16: memory is what these loops wait for. Read once: the system opens a file to count
-	// its processors.
-	static const int threads =
-		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
+	// No more than 16: memory is what these loops wait for. Asked for once: that is a call of the system.
+	static const int threads = std::clamp(processors(), 1, 16);
 	return threads;
 }
 

@@ -22,6 +22,7 @@
 #include "supernodal_solver.h"
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 #else
 #include <Eigen/OrderingMethods>
@@ -68,7 +69,8 @@ private:
 void takeLargePages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-	constexpr std::size_t page = 4096; // madvise() takes only whole ones
+	static const auto page =
+		static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); // madvise() takes only whole ones
 	const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
 	if (bytes > before + page)
 		madvise(static_cast<char*>(begin) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
