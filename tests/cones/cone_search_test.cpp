@@ -14,27 +14,6 @@ namespace {
 
 using Distances = std::vector<std::vector<double>>;
 
-/// Lengths of shortest paths between all vertices along edges, in units of the square root of the surface's
-/// area, by the algorithm of Floyd and Warshall.
-Distances distances(const EmbeddedSurface& surface)
-{
-	const std::size_t n = at(surface.triangulation.vertexCount());
-	const double unit = std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
-	Distances d(n, std::vector<double>(n, HUGE_VAL));
-	for (std::size_t i = 0; i < n; ++i)
-		d[i][i] = 0.0;
-	for (const Edge e : surface.triangulation.edges()) {
-		const auto [i, j] = surface.triangulation.ends(e);
-		double& there = d[at(i)][at(j)];
-		there = d[at(j)][at(i)] = std::min(there, surface.lengths[e] / unit);
-	}
-	for (std::size_t k = 0; k < n; ++k)
-		for (std::size_t i = 0; i < n; ++i)
-			for (std::size_t j = 0; j < n; ++j)
-				d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
-	return d;
-}
-
 /// Length of the minimum spanning tree: edges by length, each that joins two parts, by Kruskal's algorithm.
 /// \param distance [i][j] of the vertices
 double treeLength(const Distances& distance)
@@ -96,72 +75,6 @@ struct Search
 		return {model.vertices().begin(), model.vertices().end()};
 	}
 };
-
-/// On a sphere, where there are no other seams, paths that may begin on one another are no longer than those
-/// between the cones alone, and no shorter than half of them.
-TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
-{
-	const Search search(slab(0, 3));
-	const auto distance = distances(search.linear.surface);
-	EXPECT_EQ(search.sites.cutLength(), 0.0);
-	for (const int step : {7, 13, 19}) {
-		const std::vector<Vertex> cones = search.places(step);
-		Distances between;
-		for (const Vertex v : cones) {
-			between.emplace_back();
-			for (const Vertex w : cones)
-				between.back().push_back(distance[at(v)][at(w)]);
-		}
-		const SeamTree tree(search.sites, cones);
-		EXPECT_LE(tree.length(), treeLength(between) * (1 + 1e-12));
-		EXPECT_GE(tree.length(), 0.5 * treeLength(between));
-		for (const Vertex v : search.linear.surface.triangulation.vertices())
-			for (const Vertex cone : cones)
-				EXPECT_LE(tree.distance(v), distance[at(v)][at(cone)] + 1e-12);
-	}
-}
-
-/// Each cone in turn that is nearest to what is there; taken out, it leaves the tree as if it had never been.
-TEST(SeamTree, TakesTheNearestConesFirstAndForgetsThem)
-{
-	for (const int genus : {0, 1, 2}) {
-		const Search search(slab(genus, 3));
-		EXPECT_EQ(search.sites.cutLength() > 0.0, genus > 0);
-		std::vector<Vertex> cones = search.places(17), left = cones;
-		const auto expectSame = [&](const SeamTree& a, const SeamTree& b) {
-			EXPECT_NEAR(a.length(), b.length(), 1e-12);
-			for (const Vertex v : search.linear.surface.triangulation.vertices())
-				EXPECT_NEAR(a.distance(v), b.distance(v), 1e-12);
-		};
-		SeamTree wanted(search.sites);
-		while (!left.empty()) {
-			const auto nearest =
-				std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
-					return wanted.distance(a) < wanted.distance(b);
-				});
-			wanted.add(*nearest);
-			EXPECT_EQ(wanted.distance(*nearest), 0.0);
-			left.erase(nearest);
-		}
-		const SeamTree tree(search.sites, cones);
-		expectSame(tree, wanted);
-		for (const Vertex v : cones)
-			EXPECT_NEAR(tree.ownLength(v), wanted.ownLength(v), 1e-12);
-		for (std::size_t out = 1; out < cones.size(); ++out) {
-			SeamTree without(search.sites);
-			for (const Vertex v : cones)
-				if (v != cones[out])
-					without.add(v);
-			SeamTree other = without;
-			const double longer = without.distance(cones[out]);
-			other.add(cones[out]);
-			EXPECT_NEAR(other.length(), without.length() + longer, 1e-12);
-			EXPECT_NEAR(other.ownLength(cones[out]), longer, 1e-12);
-			EXPECT_NEAR(other.remove(cones[out]), longer, 1e-12);
-			expectSame(other, without);
-		}
-	}
-}
 
 /// The seams without cones open a surface to a disk: 2 g + b - 1 loops or paths are in them.
 TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
