@@ -76,6 +76,48 @@ struct Search
 	}
 };
 
+/// Each cone in turn that is nearest to what is there; taken out, it leaves the tree as if it had never been.
+TEST(SeamTree, TakesTheNearestConesFirstAndForgetsThem)
+{
+	for (const int genus : {0, 1, 2}) {
+		const Search search(slab(genus, 3));
+		EXPECT_EQ(search.sites.cutLength() > 0.0, genus > 0);
+		std::vector<Vertex> cones = search.places(17), left = cones;
+		const auto expectSame = [&](const SeamTree& a, const SeamTree& b) {
+			EXPECT_NEAR(a.length(), b.length(), 1e-12);
+			for (const Vertex v : search.linear.surface.triangulation.vertices())
+				EXPECT_NEAR(a.distance(v), b.distance(v), 1e-12);
+		};
+		SeamTree wanted(search.sites);
+		while (!left.empty()) {
+			const auto nearest =
+				std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
+					return wanted.distance(a) < wanted.distance(b);
+				});
+			wanted.add(*nearest);
+			EXPECT_EQ(wanted.distance(*nearest), 0.0);
+			left.erase(nearest);
+		}
+		const SeamTree tree(search.sites, cones);
+		expectSame(tree, wanted);
+		for (const Vertex v : cones)
+			EXPECT_NEAR(tree.ownLength(v), wanted.ownLength(v), 1e-12);
+		for (std::size_t out = 1; out < cones.size(); ++out) {
+			SeamTree without(search.sites);
+			for (const Vertex v : cones)
+				if (v != cones[out])
+					without.add(v);
+			SeamTree other = without;
+			const double longer = without.distance(cones[out]);
+			other.add(cones[out]);
+			EXPECT_NEAR(other.length(), without.length() + longer, 1e-12);
+			EXPECT_NEAR(other.ownLength(cones[out]), longer, 1e-12);
+			EXPECT_NEAR(other.remove(cones[out]), longer, 1e-12);
+			expectSame(other, without);
+		}
+	}
+}
+
 /// The seams without cones open a surface to a disk: 2 g + b - 1 loops or paths are in them.
 TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
 {
