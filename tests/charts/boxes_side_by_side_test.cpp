@@ -79,22 +79,6 @@ TEST(BoxesSideBySide, NoTwoOverlapAndTheRoomIsKept)
 			}
 }
 
-TEST(BoxesSideBySide, BoxesWithoutExtentAreApartToo)
-{
-	for (int n : {3, 600}) {
-		std::vector<Box> boxes = randomBoxes(n, 1.0, 8);
-		for (int i = 0; i < n; i += 2)
-			boxes[static_cast<std::size_t>(i)].max[static_cast<std::size_t>(i % 4 / 2)] =
-				boxes[static_cast<std::size_t>(i)].min[static_cast<std::size_t>(i % 4 / 2)];
-		EXPECT_EQ(pairsTooNear(moved(boxes, 0.0), 0.0), 0);
-		for (Box& box : boxes)
-			box.max = box.min;
-		for (const Box& box : moved(boxes, 0.1)) // points
-			EXPECT_TRUE(std::isfinite(box.min[0]) && std::isfinite(box.min[1]));
-		EXPECT_EQ(pairsTooNear(moved(boxes, 0.1), 0.1 - 1e-9), 0);
-	}
-}
-
 TEST(BoxesSideBySide, FillTwoThirdsOfTheSquare)
 {
 	std::vector<std::vector<Box>> cases{randomBoxes(4000, 0.5, 9)};

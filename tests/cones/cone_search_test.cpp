@@ -14,27 +14,6 @@ namespace {
 
 using Distances = std::vector<std::vector<double>>;
 
-/// Lengths of shortest paths between all vertices along edges, in units of the square root of the surface's
-/// area, by the algorithm of Floyd and Warshall.
-Distances distances(const EmbeddedSurface& surface)
-{
-	const std::size_t n = at(surface.triangulation.vertexCount());
-	const double unit = std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
-	Distances d(n, std::vector<double>(n, HUGE_VAL));
-	for (std::size_t i = 0; i < n; ++i)
-		d[i][i] = 0.0;
-	for (const Edge e : surface.triangulation.edges()) {
-		const auto [i, j] = surface.triangulation.ends(e);
-		double& there = d[at(i)][at(j)];
-		there = d[at(j)][at(i)] = std::min(there, surface.lengths[e] / unit);
-	}
-	for (std::size_t k = 0; k < n; ++k)
-		for (std::size_t i = 0; i < n; ++i)
-			for (std::size_t j = 0; j < n; ++j)
-				d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
-	return d;
-}
-
 /// Length of the minimum spanning tree: edges by length, each that joins two parts, by Kruskal's algorithm.
 /// \param distance [i][j] of the vertices
 double treeLength(const Distances& distance)
@@ -96,30 +75,6 @@ struct Search
 		return {model.vertices().begin(), model.vertices().end()};
 	}
 };
-
-/// On a sphere, where there are no other seams, paths that may begin on one another are no longer than those
-/// between the cones alone, and no shorter than half of them.
-TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
-{
-	const Search search(slab(0, 3));
-	const auto distance = distances(search.linear.surface);
-	EXPECT_EQ(search.sites.cutLength(), 0.0);
-	for (const int step : {7, 13, 19}) {
-		const std::vector<Vertex> cones = search.places(step);
-		Distances between;
-		for (const Vertex v : cones) {
-			between.emplace_back();
-			for (const Vertex w : cones)
-				between.back().push_back(distance[at(v)][at(w)]);
-		}
-		const SeamTree tree(search.sites, cones);
-		EXPECT_LE(tree.length(), treeLength(between) * (1 + 1e-12));
-		EXPECT_GE(tree.length(), 0.5 * treeLength(between));
-		for (const Vertex v : search.linear.surface.triangulation.vertices())
-			for (const Vertex cone : cones)
-				EXPECT_LE(tree.distance(v), distance[at(v)][at(cone)] + 1e-12);
-	}
-}
 
 /// Each cone in turn that is nearest to what is there; taken out, it leaves the tree as if it had never been.
 TEST(SeamTree, TakesTheNearestConesFirstAndForgetsThem)

@@ -65,48 +65,5 @@ TEST(Mirror, ImagesAreReflectionsAndPartsOnOneSideHaveNone)
 	EXPECT_FALSE(findMirror(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles)));
 }
 
-/// One vertex far away, with long edges, does not make vertices images of others that are not.
-TEST(Mirror, ALongEdgeIsNoMeasure)
-{
-	SurfaceMesh mesh = sphere(12, 16);
-	mesh.positions[0] = {0.0, 0.0, -1e5};
-	const auto find = [&] {
-		return findMirror(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles));
-	};
-	const auto mirror = find();
-	ASSERT_TRUE(mirror);
-	for (const Vertex v : mirror->image.indices())
-		EXPECT_TRUE(mirror->image[v].isValid());
-	Random random(6);
-	for (std::size_t v = 1; v < mesh.positions.size(); ++v)
-		for (double& x : mesh.positions[v])
-			x += random.real(-0.01, 0.01);
-	EXPECT_FALSE(find());
-}
-
-TEST(Mirror, VerticesOfAHoleThatIsClosedAreImagesOfSuch)
-{
-	constexpr int kAround = 16, kEye = 1 + kAround * 6 + 2;
-	const SurfaceMesh ball = withoutStars(sphere(12, kAround), {kEye, kEye + 4});
-	const EmbeddedSurface surface =
-		embeddedSurface(VertexArray<Point3>(ball.positions), ball.triangles);
-	ASSERT_EQ(surface.topology.type.boundaryLoops, 2);
-	VertexArray<char> onHole(surface.positions.size(), 0);
-	for (const Vertex v : onHole.indices())
-		onHole[v] = surface.topology.boundary[v] && surface.positions[v][0] < 0.0;
-	const auto both = findMirror(surface), one = findMirror(surface, onHole);
-	ASSERT_TRUE(both);
-	ASSERT_TRUE(one);
-	int otherwise = 0;
-	for (const Vertex v : onHole.indices()) {
-		if (const Vertex w = both->image[v]; w.isValid())
-			otherwise += onHole[v] != onHole[w];
-		if (const Vertex w = one->image[v]; w.isValid()) {
-			EXPECT_EQ(onHole[v], onHole[w]);
-		}
-	}
-	EXPECT_GT(otherwise, 0);
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -333,25 +333,6 @@ TEST(LeastDistortion, ComesAsLowAsALongDescentByGradients)
 	}
 }
 
-/// All others get better, and none of them turns.
-TEST(LeastDistortion, ATurnedTriangleDoesNotCount)
-{
-	Random random(629);
-	const SurfaceMesh mesh = wavyDisk(8, random);
-	std::vector<Point2> places = fromAbove(mesh);
-	const Triangle& t = mesh.triangles[40];
-	places[at(t[0])] = {
-		(places[at(t[1])][0] + places[at(t[2])][0]) / 2 * 2 - places[at(t[0])][0],
-		(places[at(t[1])][1] + places[at(t[2])][1]) / 2 * 2 - places[at(t[0])][1]};
-	CutMap d(mesh, places);
-	const int flipped = d.flipped();
-	ASSERT_GT(flipped, 0);
-	const double before = energyOf(d);
-	d.improve();
-	EXPECT_LT(energyOf(d), before);
-	EXPECT_LE(d.flipped(), flipped);
-}
-
 /// Across every seam the same motion leads from one side to the other as before, and what is fixed stays.
 TEST(LeastStretch, LowersTheEnergyWithSeamsAsTheyAre)
 {

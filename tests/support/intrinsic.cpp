@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace ricci::testing {
@@ -49,14 +48,6 @@ OpenedMesh opened(const SurfaceMesh& mesh)
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)
 {
 	return splitIntoComponents(opened(mesh));
-}
-
-Component onlyComponent(const SurfaceMesh& mesh)
-{
-	const std::vector<Component> components = componentsOf(mesh);
-	if (components.size() != 1)
-		throw std::logic_error("the mesh is not connected");
-	return components.front();
 }
 
 Triangulation

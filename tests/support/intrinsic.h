@@ -16,8 +16,6 @@ Triangulation glued(const SurfaceMesh& mesh);
 
 OpenedMesh opened(const SurfaceMesh& mesh);
 std::vector<Component> componentsOf(const SurfaceMesh& mesh);
-/// Of a connected surface.
-Component onlyComponent(const SurfaceMesh& mesh);
 
 /// Triangles glued side by side. \p sides [side] number of the other side, or -1.
 Triangulation
