@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts that are thin, small or to be laid upright. packing_test.cpp has all others.
+// Outlines, their distances and places. packing_test.cpp has the texture coordinates that come of it.
 #include "support/flat_meshes.h"
 
 #include <ricci/base/numbers.h>
@@ -14,6 +14,99 @@
 
 namespace ricci::testing {
 namespace {
+
+Outline polygon(const std::vector<Point2>& corners)
+{
+	Outline outline;
+	for (std::size_t i = 0; i < corners.size(); ++i)
+		outline.push_back({corners[i], corners[(i + 1) % corners.size()]});
+	return outline;
+}
+
+Outline box(double width, double height, const Point2& corner = {0, 0})
+{
+	const double x = corner[0], y = corner[1];
+	return polygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}});
+}
+
+/// Whether an outline goes round a point.
+bool contains(const Outline& outline, const Point2& p)
+{
+	int turns = 0;
+	for (const auto& s : outline)
+		if ((s[0][1] <= p[1]) != (s[1][1] <= p[1])) {
+			const bool up = s[0][1] <= p[1];
+			if ((doubledArea(s[0], s[1], p) > 0.0) == up)
+				turns += up ? 1 : -1;
+		}
+	return turns != 0;
+}
+
+/// Whether no corner of an outline is nearer than \p padding to another one, and none lies in another.
+bool keepApart(const std::vector<Outline>& outlines, double padding)
+{
+	for (std::size_t i = 0; i < outlines.size(); ++i)
+		for (std::size_t j = 0; j < outlines.size(); ++j) {
+			if (i == j)
+				continue;
+			if (contains(outlines[i], outlines[j].front()[0]))
+				return false;
+			for (const auto& s : outlines[i])
+				for (const auto& t : outlines[j]) {
+					const double share = nearestOnSegment(s[0], s[1], t[0]);
+					if (distance(t[0], between(s[0], s[1], share)) < padding)
+						return false;
+				}
+		}
+	return true;
+}
+
+std::vector<Motion>
+pack(const std::vector<Outline>& outlines, double side, double padding, ChartTurns turns)
+{
+	return packOutlines(outlines, std::vector<ChartTurns>(outlines.size(), turns), side, padding);
+}
+
+void expectPacked(std::vector<Outline> outlines, double side, double padding, ChartTurns turns)
+{
+	const std::vector<Motion> motions = pack(outlines, side, padding, turns);
+	ASSERT_EQ(motions.size(), outlines.size());
+	for (std::size_t i = 0; i < motions.size(); ++i) {
+		const std::complex<double> turn = motions[i].turn;
+		EXPECT_NEAR(std::abs(turn), 1.0, 1e-15);
+		EXPECT_TRUE(turns != ChartTurns::None || turn == 1.0);
+		EXPECT_TRUE(turns != ChartTurns::Quarter || turn.real() * turn.imag() == 0.0);
+		for (auto& ends : outlines[i])
+			for (Point2& p : ends) {
+				p = motions[i](p);
+				for (double x : p) {
+					EXPECT_GE(x, 0.5 * padding * (1 - 1e-9));
+					EXPECT_LE(x, side - 0.5 * padding * (1 - 1e-9));
+				}
+			}
+	}
+	EXPECT_TRUE(keepApart(outlines, padding * (1 - 1e-9)));
+}
+
+TEST(PackOutlines, UsesHolesNotchesAndTurns)
+{
+	// A frame of side 3 with a hole of side 2, clockwise, and squares that fit in.
+	Outline holed = box(3.0, 3.0);
+	const Outline hole = polygon({{0.5, 0.5}, {0.5, 2.5}, {2.5, 2.5}, {2.5, 0.5}});
+	holed.insert(holed.end(), hole.begin(), hole.end());
+	expectPacked({box(0.9, 0.9), holed, box(0.9, 0.9)}, 3.05, 0.01, ChartTurns::Free);
+	// Two L of three squares each fill a rectangle of two by three, with a turn by two right angles.
+	const Outline corner = polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
+	for (ChartTurns turns : {ChartTurns::Quarter, ChartTurns::Free})
+		expectPacked({corner, corner}, 3.05, 0.0, turns);
+	EXPECT_TRUE(pack({corner, corner}, 2.9, 0.0, ChartTurns::Free).empty());
+	// A strip of 1 by 0.1 has a square of side 1.1 / sqrt(2) round it, turned by half a right angle.
+	const std::vector<Outline> strips{box(1.0, 0.1), box(0.3, 0.3)};
+	const double least = 1.1 * std::sqrt(0.5);
+	EXPECT_TRUE(pack(strips, 0.99, 0.0, ChartTurns::Quarter).empty());
+	EXPECT_TRUE(pack(strips, 0.99 * least, 0.0, ChartTurns::Free).empty());
+	expectPacked(strips, 1.03 * least, 0.0, ChartTurns::Free);
+}
 
 /// Charts of two triangles each, which fill the boxes from the origin with these sizes.
 Parametrization boxCharts(const std::vector<Point2>& sizes)

@@ -24,12 +24,11 @@ constexpr double kMaxCurvatureBetween = 0.25;
 constexpr double kPoorCost = 6.0;
 
 /// Where a map of cones breaks its promise, others are tried: first those for what energy has turned out to cost, at most
-/// so many times what the map before was made for, and while the map is poor in so many rounds; if that does not help,
-/// those that bring the expected spread of areas below the first of the spreads and, while the map is poor, below the
-/// others: the linear model promises too much where scales differ much. Of 600 thin bars with quarter turns, three cost up
-/// to four times as much with the first spread alone.
+/// so many times what is expected, and then, if their map breaks the promise as well, those that bring the expected
+/// spread of areas below the first of the spreads. Where the map is poor all the same, the others are tried, too: the
+/// linear model promises too much where scales differ much. Of 600 thin bars with quarter turns, three cost up to four
+/// times as much with the first spread alone.
 constexpr double kMaxEnergyFactor = 8.0;
-constexpr int kMaxFactorRounds = 3;
 constexpr double kSpreadsInstead[] = {0.25, 0.125, 0.0625, 0.03125};
 
 /// Capped holes are tried where the seams to them make at least this share of what the map is expected to cost above an
@@ -107,53 +106,46 @@ std::optional<Parametrization> otherMap(
 }
 
 /// Maps with other cones where that of the cheapest ones is poor, or costs more than was expected.
-/// \param promise what it was expected to cost
+/// \param expected what it was expected to cost
 /// \param alternative what another map costs
 Parametrization withOtherCones(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	MapCost promise,
+	const MapCost& expected,
 	double alternative,
 	Parametrization map)
 {
-	const double isometry = expectedEnergy(0.0);
-	double own = costOf(map).total(),
-		   energy = costOf(map).energy;              // of the best and of the last map
-	double factor = 1.0, promised = promise.total(); // by which the last was chosen
+	double own = costOf(map).total();
+	double promised = expected.total(); // by what the last map was chosen for
 	const auto cost = [&] { return std::min(own, alternative); };
 	const auto isBroken = [&] { return cost() > promised + kBrokenPromise; };
 	const auto tryOther = [&](const auto& ask, const auto& isWorth) {
 		auto next = otherMap(component, input, options, "the map before it stays", ask, isWorth);
 		if (!next)
-			return false;
-		energy = costOf(*next).energy;
+			return;
 		const int steps = map.report.iterations + next->report.iterations;
 		if (const double ofNext = costOf(*next).total(); ofNext < own) {
 			own = ofNext;
 			map = *std::move(next);
 		}
 		map.report.iterations = steps;
-		return true;
 	};
-	const auto tryFactor = [&] {
-		const double measured = (energy - isometry) / std::max(kTiny, promise.energy - isometry);
-		factor = std::clamp(measured, factor, kMaxEnergyFactor * factor);
-		if (promise.total(factor) <= promised + kBrokenPromise)
-			return false;
-		const auto ask = [&](TargetRequest& request) {
-			request.energyFactor = factor;
-			request.alternative = cost();
-		};
-		return tryOther(ask, [&](const Target& target) {
-			promise = target.expected.value_or(promise);
-			promised = target.expected ? promise.total(factor) : kInfinity;
-			return promised < cost();
-		});
-	};
-	for (int round = 0; round < kMaxFactorRounds && isBroken(); ++round)
-		if ((round > 0 && cost() <= kPoorCost) || !tryFactor())
-			break;
+	const double isometry = expectedEnergy(0.0);
+	const double factor = std::clamp(
+		(costOf(map).energy - isometry) / std::max(kTiny, expected.energy - isometry),
+		1.0,
+		kMaxEnergyFactor);
+	if (isBroken() && expected.total(factor) > promised + kBrokenPromise)
+		tryOther(
+			[&](TargetRequest& request) {
+				request.energyFactor = factor;
+				request.alternative = cost();
+			},
+			[&](const Target& target) {
+				promised = target.expected ? target.expected->total(factor) : kInfinity;
+				return promised < cost();
+			});
 	for (const double spread : kSpreadsInstead)
 		if (cost() > kPoorCost || (isBroken() && spread == kSpreadsInstead[0]))
 			tryOther(
