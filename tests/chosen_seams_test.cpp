@@ -439,7 +439,8 @@ TEST(ChosenSeams, DivideEverySheet)
 	EXPECT_EQ(whole.report.chosenSeamEdges, 0);
 	EXPECT_EQ(divided.report.charts, 4);
 	EXPECT_EQ(divided.report.chosenSeamEdges, 3);
-	EXPECT_NEAR(divided.report.chosenSeamLength, 2.0 * 3.0, 1e-12); // two pairs of sheets are parted
+	EXPECT_NEAR(
+		divided.report.chosenSeamLength, 2.0 * 3.0, 1e-12); // two pairs of sheets are parted
 	EXPECT_EQ(divided.report.cutNonmanifoldEdges, whole.report.cutNonmanifoldEdges);
 	EXPECT_EQ(divided.report.splitVertices, whole.report.splitVertices);
 	expectIsometric(mesh, wedgesOf(divided), divided.report);
