@@ -39,6 +39,23 @@ TEST(InParallel, EveryElementIsInOnePart)
 }
 
 /// While a crew lives, loops are helped by the same threads.
+#ifdef __linux__
+TEST(Processors, AreThoseThatTheProcessMayUse)
+{
+	cpu_set_t all, one;
+	ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+	EXPECT_EQ(processors(), CPU_COUNT(&all));
+	std::size_t first = 0;
+	while (!CPU_ISSET(first, &all))
+		++first;
+	CPU_ZERO(&one);
+	CPU_SET(first, &one);
+	ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+	EXPECT_EQ(processors(), 1);
+	ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+}
+#endif
+
 TEST(Crew, ItsThreadsAreKept)
 {
 	std::mutex mutex;
