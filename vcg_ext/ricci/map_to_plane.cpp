@@ -120,7 +120,7 @@ Parametrization withOtherCones(
 	double promised = expected.total(); // by what the last map was chosen for
 	const auto cost = [&] { return std::min(own, alternative); };
 	const auto isBroken = [&] { return cost() > promised + kBrokenPromise; };
-	const auto tryOther = [&](const auto& ask, const auto& isWorth) {
+	const auto tryOther = [&](const auto& ask, const auto& isWorth) { // null: it is
 		auto next = otherMap(component, input, options, "the map before it stays", ask, isWorth);
 		if (!next)
 			return;
@@ -152,7 +152,7 @@ Parametrization withOtherCones(
 				[&](TargetRequest& request) {
 					request.goal = {ConeGoal::Spread, 0, spread};
 				},
-				[](const Target&) { return true; });
+				nullptr);
 	return map;
 }
 
