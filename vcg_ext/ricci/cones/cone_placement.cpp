@@ -283,9 +283,64 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 		SeamTree(sites, vertices).length());
 }
 
+/// The search for a number of cones or a spread on aggregates, and then on the surface itself as far as its own
+/// spread asks for it.
+void searchFromCoarse(
+	const TargetRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
+{
+	VertexArray<Vertex> roots;
+	LinearFlow coarse = onAggregates(flow.system(roots), kMaxAggregates, roots);
+	const ConeSites coarseSites(sites, roots);
+	ConeModel coarseModel(coarse, model.total());
+	TargetRequest coarseRequest = request;
+	const bool isCounted = request.goal.kind == ConeGoal::Count;
+	model.setRounding(request.rounding);
+	double excess = 0.0; // of the spread on the surface itself
+	for (int round = 0; round < kMaxCoarseRounds; ++round) {
+		search(coarseRequest, coarseModel, coarseSites);
+		std::vector<Vertex> cones = coarseModel.vertices();
+		for (Vertex& v : cones)
+			v = roots[v];
+		setCones(std::move(cones), model);
+		excess = model.distortion() / request.goal.spread;
+		if (isCounted || excess <= 1.0)
+			break;
+		coarseRequest.goal.spread /= excess;
+	}
+	if (isCounted || excess > 1.0)
+		relocateCones(model, sites, kMaxFineRounds);
+	if (!isCounted)
+		addForSpread(request, model, sites);
+	removeWeakCones(model);
+}
+
+/// The search on the surface itself, from cones that may be known, for a number or a spread on aggregates first if
+/// there are many vertices.
+PlacedCones placeOnSurface(
+	const EmbeddedSurface& surface,
+	LinearFlow& flow,
+	const TargetRequest& request,
+	const ConeSites& sites,
+	std::vector<Vertex> known)
+{
+	ConeModel model(flow, surface.topology.type.totalCurvature(), request.energyFactor);
+	checkCount(request, model.minSize(), sites);
+	if (!known.empty())
+		setCones(std::move(known), model);
+	if (flow.vertexCount() <= kMaxSearched)
+		search(request, model, sites);
+	else
+		searchFromCoarse(request, flow, model, sites);
+	mirrorCones(request, sites, {}, surface.positions, model);
+	PlacedCones placed = result(model, sites);
+	mirrorCurvatures(request, placed);
+	return placed;
+}
+
 /// All of the search on aggregates of vertices, for what is the least cost there, while another thread
-/// factorises the flow. On the surface itself the curvatures are fitted by conjugate gradients, with the equation
-/// on the aggregates as the preconditioner: each step costs two linear solutions, however many cones there are.
+/// factorises the flow. On the surface itself the cones are tidied or, where there are too many vertices for that,
+/// their curvatures are fitted by conjugate gradients, with the equation on the aggregates as the preconditioner: each
+/// step costs two linear solutions, however many cones there are.
 PlacedCones
 placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request)
 {
@@ -302,7 +357,8 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 			checkCount(request, minConeCount(flow, total), *sites);
 		},
 		[&] {
-			coarse.emplace(onAggregates(std::move(whole), kMaxAggregates, roots));
+			const int most = std::min(kMaxAggregates, flow.vertexCount() / 2);
+			coarse.emplace(onAggregates(std::move(whole), most, roots));
 			found.emplace(*coarse, total, request.energyFactor);
 		});
 	besides(
@@ -313,6 +369,12 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 		},
 		[&] { flow.factorize(); });
 	ConeModel& model = *found;
+	if (flow.vertexCount() <= kMaxSearched) {
+		std::vector<Vertex> known = model.vertices();
+		for (Vertex& v : known)
+			v = roots[v];
+		return placeOnSurface(surface, flow, request, *sites, std::move(known));
+	}
 	const std::vector<Vertex> vertices =
 		mirrorCones(request, *coarseSites, roots, surface.positions, model);
 	const auto spread = [&](const Eigen::VectorXd& k) {
@@ -359,46 +421,6 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 	return placed;
 }
 
-/// The search on aggregates first, and then on the surface itself: for the least cost of the cones that are found, for
-/// a number of cones of their places, for a spread as far as its own asks for it.
-void searchFromCoarse(
-	const TargetRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
-{
-	VertexArray<Vertex> roots;
-	const int most = std::min(kMaxAggregates, flow.vertexCount() / 2);
-	LinearFlow coarse = onAggregates(flow.system(roots), most, roots);
-	const ConeSites coarseSites(sites, roots);
-	ConeModel coarseModel(coarse, model.total(), request.energyFactor);
-	TargetRequest coarseRequest = request;
-	const auto takeFound = [&] {
-		search(coarseRequest, coarseModel, coarseSites);
-		std::vector<Vertex> cones = coarseModel.vertices();
-		for (Vertex& v : cones)
-			v = roots[v];
-		setCones(std::move(cones), model);
-	};
-	if (request.goal.kind == ConeGoal::LeastCost) {
-		takeFound();
-		search(request, model, sites);
-		return;
-	}
-	const bool isCounted = request.goal.kind == ConeGoal::Count;
-	model.setRounding(request.rounding);
-	double excess = 0.0; // of the spread on the surface itself
-	for (int round = 0; round < kMaxCoarseRounds; ++round) {
-		takeFound();
-		excess = model.distortion() / request.goal.spread;
-		if (isCounted || excess <= 1.0)
-			break;
-		coarseRequest.goal.spread /= excess;
-	}
-	if (isCounted || excess > 1.0)
-		relocateCones(model, sites, kMaxFineRounds);
-	if (!isCounted)
-		addForSpread(request, model, sites);
-	removeWeakCones(model);
-}
-
 } // namespace
 
 PlacedCones
@@ -412,21 +434,9 @@ PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request)
 {
 	advance(0.0, "Placing cones");
-	const int vertices = surface.triangulation.vertexCount();
-	const bool isForCost = request.goal.kind == ConeGoal::LeastCost;
-	if (isForCost && vertices > kMaxSearched)
+	if (request.goal.kind == ConeGoal::LeastCost && flow.vertexCount() > kMaxSearchedForCost)
 		return placeOnAggregates(surface, flow, request);
-	const ConeSites sites(surface, request.coneVertices());
-	ConeModel model(flow, surface.topology.type.totalCurvature(), request.energyFactor);
-	checkCount(request, model.minSize(), sites);
-	if (vertices <= (isForCost ? kMaxSearchedForCost : kMaxSearched))
-		search(request, model, sites);
-	else
-		searchFromCoarse(request, flow, model, sites);
-	mirrorCones(request, sites, {}, surface.positions, model);
-	PlacedCones placed = result(model, sites);
-	mirrorCurvatures(request, placed);
-	return placed;
+	return placeOnSurface(surface, flow, request, ConeSites(surface, request.coneVertices()), {});
 }
 
 PlacedCones
