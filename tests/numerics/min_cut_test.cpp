@@ -59,15 +59,12 @@ std::vector<char> sidesOf(int nodeCount, const MinCut::Side& found)
 	return isOfSources;
 }
 
-/// One object serves many cuts.
 TEST(MinCut, IsTheSmallestOfAllCutsWithTheFewestNodes)
 {
-	constexpr int kMost = 10;
-	MinCut cut(kMost);
 	Random random(340);
 	int connected = 0, ambiguous = 0, ofSinks = 0;
 	for (int trial = 0; trial < 2000; ++trial) {
-		const int n = 2 + random.index(kMost - 1);
+		const int n = 2 + random.index(9);
 		const bool directed = random.coin();
 		std::vector<Link> links;
 		for (int i = random.index(3 * n); i > 0; --i) {
@@ -85,7 +82,7 @@ TEST(MinCut, IsTheSmallestOfAllCutsWithTheFewestNodes)
 			else if (node == sink || kind == 1)
 				sinks.push_back(node);
 		}
-		const MinCut::Side found = cut.run(sources, sinks, graphOf(n, links));
+		const MinCut::Side found = MinCut(n).run(sources, sinks, graphOf(n, links));
 		const std::vector<char> side = sidesOf(n, found);
 		const auto isSource = [&](int node) { return side[static_cast<std::size_t>(node)] != 0; };
 		for (const int node : sources)
@@ -123,6 +120,32 @@ TEST(MinCut, IsTheSmallestOfAllCutsWithTheFewestNodes)
 	EXPECT_GT(connected, 100);
 	EXPECT_GT(ambiguous, 50);
 	EXPECT_GT(ofSinks, 50);
+}
+
+/// One object serves many cuts of large graphs: grids with random capacities, some of them 0. The capacity of the cut
+/// is the flow that it was found with, and no cut has less.
+TEST(MinCut, IsAsLargeAsTheFlow)
+{
+	Random random(341);
+	const int width = 25, height = 20, n = width * height;
+	MinCut cut(n);
+	for (int trial = 0; trial < 200; ++trial) {
+		std::vector<Link> links;
+		const int most = trial % 2 == 0 ? 3 : 1000;
+		for (int node = 0; node < n; ++node)
+			for (const int other :
+				 {(node + 1) % width != 0 ? node + 1 : n, node + width, random.index(9 * n)})
+				if (other < n) {
+					const std::int64_t there = random.index(most);
+					links.push_back({node, other, there, there});
+				}
+		const int source = random.index(n), sink = (source + 1 + random.index(n - 1)) % n;
+		const MinCut::Side found = cut.run({source}, {sink}, graphOf(n, links));
+		const std::vector<char> side = sidesOf(n, found);
+		EXPECT_EQ(
+			capacityOf(links, [&](int node) { return side[static_cast<std::size_t>(node)] != 0; }),
+			found.capacity);
+	}
 }
 
 /// Two blocks of a grid that are joined by one cheap column of edges; \p asked counts the nodes.
