@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints what runs on meshes give back, a line for each number and a digest of all arrays: what a change that
 // should change nothing is compared by, bit for bit.
+#include "bytes.h"
 #include "calls.h"
 #include "mesh_file.h"
 
@@ -63,10 +64,9 @@ void print(const testing::Call& call)
 		const testing::Outcome outcome = outcomeOf(call);
 		for (const testing::Figure& figure : figuresOf(outcome))
 			std::printf("%s\t%s\t%.17g\n", run, figure.name, figure.value);
-		std::string u;
-		for (const double x : outcome.map.u)
-			u.append(reinterpret_cast<const char*>(&x), sizeof x);
-		std::printf("%s\tu\t%016llx\n", run, (unsigned long long) (digestOf(u)));
+		testing::Bytes u;
+		u.addAll(outcome.map.u);
+		std::printf("%s\tu\t%016llx\n", run, (unsigned long long) (digestOf(u.all)));
 		std::printf("%s\tall\t%016llx\n", run, (unsigned long long) (digestOf(bitsOf(outcome))));
 	}
 	catch (const std::exception& e) {
