@@ -145,20 +145,6 @@ Arguments parse(int argc, char** argv)
 	return a;
 }
 
-class Listener : public Progress
-{
-public:
-	explicit Listener(bool verbose) : m_verbose(verbose) {}
-	void log(const std::string& line) override
-	{
-		if (m_verbose)
-			std::cerr << "  " << line << "\n";
-	}
-
-private:
-	bool m_verbose;
-};
-
 void printHeader()
 {
 	std::printf("mesh\ttarget\tV\tF");
@@ -171,7 +157,6 @@ void printHeader()
 struct Outcome
 {
 	Report report;
-	std::vector<std::string> notes;
 	SurfaceMesh drawn;
 	testing::UV uv;
 	std::vector<char> reversed; ///< [face drawn]
@@ -198,7 +183,6 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
-	out.notes = flat.notes;
 	draw(flat.mesh, whole.opened.mesh.positions, out);
 	out.reversed.assign(out.uv.size(), 0);
 	return out;
@@ -220,7 +204,6 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
-	out.notes = flat.notes;
 	std::vector<std::string> notes;
 	const OpenedMesh opened = openMesh(mesh, notes);
 	draw(flat.mesh, mesh.positions, out);
@@ -269,12 +252,19 @@ bool addRow(
 		std::fflush(stdout);
 		Options options = a.options;
 		options.target = target;
-		Listener listener(a.verbose);
+		struct : Progress
+		{
+			void log(const std::string& line) override
+			{
+				if (isVerbose)
+					std::cerr << "  " << line << "\n";
+			}
+			bool isVerbose = false;
+		} listener;
+		listener.isVerbose = a.verbose;
 		const Outcome out =
 			a.packed ? runPacked(mesh, options, a, listener) : runCore(mesh, options, listener);
 		printResult(out, a.packed);
-		for (const std::string& note : out.notes)
-			listener.log(note);
 		if (!a.objFolder.empty())
 			testing::writeObj(
 				(std::filesystem::path(a.objFolder) / (name + "." + targetName + ".obj")).string(),
