@@ -38,22 +38,6 @@ TEST(Triangulation, RefusesAnEdgeOfTwoTrianglesThatDisagree)
 	}
 }
 
-TEST(Topology, OfSurfacesThatNoMeshHas)
-{
-	const Topology torus = topologyOf(oneVertexTorus());
-	EXPECT_TRUE(torus.type.isTorus());
-	EXPECT_TRUE(torus.loops.empty());
-	// One triangle with two sides glued: a disk, whose boundary is one edge from a vertex to itself.
-	const Topology cone = topologyOf(glued(2, {{0, 1, 0}}, {1, 0, -1}));
-	EXPECT_TRUE(cone.type.isDisk());
-	EXPECT_EQ(cone.loops, (std::vector<std::vector<Vertex>>{{Vertex(0)}}));
-	EXPECT_EQ(cone.boundary, (VertexArray<char>{1, 0}));
-	// Vertices without a face do not count.
-	const Topology triangle = topologyOf(Triangulation(9, {{4, 1, 2}}));
-	EXPECT_TRUE(triangle.type.isDisk());
-	EXPECT_EQ(triangle.boundary, (VertexArray<char>{0, 1, 1, 0, 1, 0, 0, 0, 0}));
-}
-
 TEST(Topology, HasANameForEveryType)
 {
 	const std::pair<SurfaceMesh, const char*> cases[] = {
