@@ -26,18 +26,12 @@ using namespace ricci;
 const char* const kUsage =
 	"usage: mesh_table [option...] MESH...\n"
 	"  --target T           automatic, flat, disk, rectangle, cones; may be given several times\n"
-	"  --cone-count N       of placed cones\n"
-	"  --cone-distortion X  that decides their number\n"
-	"  --cone-rounding R    free, quarter\n"
+	"  --cone-distortion X  that decides the number of cones\n"
 	"  --method M           flips, fixed, swaps, thurston\n"
 	"  --finish F           none, repair, least, stretch\n"
 	"  --refine             give the map on the common refinement (method flips)\n"
-	"  --capped             close all boundary loops but the longest for the flow\n"
-	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
 	"  --packed             go on to the unit square; count overlaps there\n"
 	"  --margin M           between the charts, with --packed\n"
-	"  --prescribe-boundary free_boundary off\n"
-	"  --epsilon X          radians\n"
 	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
 	"  --verbose            the log on standard error\n";
 
@@ -106,29 +100,12 @@ Arguments parse(int argc, char** argv)
 				 {"stretch", Finish::LeastStretch}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
-		else if (word == "--capped")
-			a.options.holes = Holes::Capped;
-		else if (word == "--charts")
-			a.options.charts = choose<Charts>(
-				value(),
-				{{"flow", Charts::OfTheFlow},
-				 {"separate", Charts::WithoutOverlap},
-				 {"strips", Charts::CutForPacking}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")
 			a.margin = std::atof(value().c_str());
-		else if (word == "--prescribe-boundary")
-			a.options.freeBoundary = false;
-		else if (word == "--epsilon")
-			a.options.epsilon = std::atof(value().c_str());
-		else if (word == "--cone-count")
-			a.options.cones.count = std::atoi(value().c_str());
 		else if (word == "--cone-distortion")
 			a.options.cones.distortion = std::atof(value().c_str());
-		else if (word == "--cone-rounding")
-			a.options.cones.rounding = choose<ConeRounding>(
-				value(), {{"free", ConeRounding::Free}, {"quarter", ConeRounding::QuarterTurns}});
 		else if (word == "--obj")
 			a.objFolder = value();
 		else if (word == "--verbose")
