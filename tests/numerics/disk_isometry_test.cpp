@@ -59,6 +59,13 @@ TEST(DiskIsometry, IsometriesAreAGroupThatActsOnTheDisk)
 	EXPECT_EQ((DiskIsometry{{-1, 0}, {0, 0}}).distanceFromIdentity(), 0.0); // the same isometry
 }
 
+/// Short ones too, to the last digits.
+TEST(DiskIsometry, TranslationsMoveByTheirLength)
+{
+	for (const double length : {0.0, 1e-9, 1e-3, 0.3, 5.0})
+		EXPECT_NEAR(DiskIsometry::translation(length).displacement(), length, 1e-14 * length);
+}
+
 TEST(DiskIsometry, AxisEndsAreFixedAndPointsMoveFromOneToTheOther)
 {
 	Random random(85);
