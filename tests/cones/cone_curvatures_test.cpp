@@ -10,13 +10,16 @@
 namespace ricci::testing {
 namespace {
 
+constexpr double kMax = 1.5;
+
 /// k.G k + 2 b.k with a positive definite G, and its minimum among all real k (of a given sum).
 struct Quadratic
 {
 	Eigen::MatrixXd gram;
 	Eigen::VectorXd linear;
 	std::optional<double> total;
-	Eigen::VectorXd free; // the minimum
+	Eigen::MatrixXd inverse; // see multipliers()
+	Eigen::VectorXd free;    // the minimum
 
 	/// With the minimum without a sum at random values between \p low and \p high.
 	Quadratic(
@@ -37,6 +40,7 @@ struct Quadratic
 		system.topLeftCorner(n, n) = gram;
 		Eigen::VectorXd rhs = Eigen::VectorXd::Constant(rows, total.value_or(0.0));
 		rhs.head(n) = -linear;
+		inverse = system.fullPivLu().inverse().topLeftCorner(n, n);
 		free = system.fullPivLu().solve(rhs).head(n);
 	}
 
@@ -53,6 +57,50 @@ Eigen::MatrixXd randomRoot(int n, double diagonal, double coupling, Random& rand
 		for (int j = 0; j < n; ++j)
 			root(i, j) = (i == j ? diagonal : 0.0) + random.real(-coupling, coupling);
 	return root;
+}
+
+/// Strongly coupled, with the free minimum on both sides of the bound.
+Quadratic bounded(int n, bool fixedSum, Random& random)
+{
+	const auto root = randomRoot(n, 0.3, 1.0, random);
+	const std::optional<double> sum = random.real(-2.0 * n, kMax * n);
+	return {root, -2.0, 5.0, fixedSum ? sum : std::nullopt, random};
+}
+
+/// The conditions of a convex minimum. Half the gradient plus the multipliers is 0, of which those of the
+/// bounds are not negative, and 0 below them: from anywhere.
+TEST(BoundedMinimum, FulfilsItsConditions)
+{
+	Random random(241);
+	int held = 0, freed = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		const int n = trial < 200 ? 20 + random.index(40) : 1 + random.index(8);
+		const Quadratic problem = bounded(n, random.coin(), random);
+		Eigen::VectorXd start = Eigen::VectorXd::Zero(n);
+		for (int i = 1; i < n; ++i) // with a fixed sum, not all of them can be at the bound
+			start[i] = trial % 4 < 2 || random.coin() ? 0.0 : random.real(0.0, 10.0);
+		const Eigen::VectorXd m =
+			boundMultipliers(problem.inverse, problem.free.array() - kMax, start);
+		const Eigen::VectorXd k = problem.free - problem.inverse * m;
+		Eigen::VectorXd slope = problem.gram * k + problem.linear + m;
+		const double slack =
+			1e-13 * (problem.free.norm() + problem.inverse.norm() * m.norm()); // of rounding
+		if (problem.total) {
+			EXPECT_NEAR(k.sum(), *problem.total, n * (1e-10 + slack));
+			slope.array() -= slope.mean();
+		}
+		EXPECT_LT(slope.lpNorm<Eigen::Infinity>(), 1e-8 * (1.0 + problem.linear.norm()));
+		EXPECT_GE(m.minCoeff(), 0.0);
+		for (int i = 0; i < n; ++i) {
+			EXPECT_LT(k[i], kMax + slack);
+			if (k[i] < kMax - slack) {
+				EXPECT_EQ(m[i], 0.0);
+			}
+			++(m[i] > 0.0 ? held : freed);
+		}
+	}
+	EXPECT_GT(held, 1000);
+	EXPECT_GT(freed, 1000);
 }
 
 Eigen::VectorXd rounded(const Quadratic& energy)
