@@ -35,8 +35,10 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -172,45 +174,28 @@ struct Row
 
 	void print() const
 	{
-		std::printf("%s\t%zu\t%s", name.c_str(), faces, geometry.c_str());
-		if (remark == "-")
-			std::printf(
-				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.2f",
-				flow,
-				oneFactor,
-				flow / oneFactor,
-				iterations,
-				flips,
-				residual,
-				peak,
-				read,
-				packing,
-				whole,
-				wholeWall,
-				whole / oneFactor);
-		if (remark == "-")
-			for (const std::string& stage : kStages)
-				std::printf("\t%.4f", stages.cpuOf(stage));
-		if (remark == "-")
-			std::printf(
-				"\t%.3f\t%s\t%.4f\t%d\t%.2f\t%d\t%d\t%.3f",
-				stages.longestSilence(),
-				stages.silentStage().c_str(),
-				evaluation,
-				defaultThreads(),
-				speedup,
-				work.factorizations,
-				work.solutions,
-				1e-9 * work.flops);
-		else
-			for (int column = 0; column < 29; ++column)
-				std::printf("\t-");
-		std::printf(
-			"\t%s\t%s\t%s\t%s\n",
-			target.c_str(),
-			method.c_str(),
-			SparseCholesky::name(),
-			remark.c_str());
+		std::cout << name << '\t' << faces << '\t' << geometry;
+		const auto add = [&](const auto& value, int digits = 4) {
+			std::cout << '\t';
+			if (remark == "-")
+				std::cout << std::fixed << std::setprecision(digits) << value;
+			else
+				std::cout << '-';
+		};
+		add(flow), add(oneFactor), add(flow / oneFactor, 2), add(iterations), add(flips);
+		std::ostringstream error;
+		error << std::scientific << std::setprecision(1) << residual;
+		add(error.str()), add(peak, 0);
+		add(read), add(packing), add(whole), add(wholeWall), add(whole / oneFactor, 2);
+		for (const std::string& stage : kStages)
+			add(stages.cpuOf(stage));
+		add(stages.longestSilence(), 3), add(stages.silentStage());
+		add(evaluation), add(defaultThreads()), add(speedup, 2);
+		add(work.factorizations), add(work.solutions), add(1e-9 * work.flops, 3);
+		for (const std::string& text :
+			 {target, method, std::string(SparseCholesky::name()), remark})
+			std::cout << '\t' << text;
+		std::cout << std::endl;
 	}
 };
 

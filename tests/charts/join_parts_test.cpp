@@ -61,6 +61,48 @@ TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
 	}
 }
 
+/// The least cut round a sheet that is far from what it covers is looked for near them: where the waist of the strip
+/// between both is there, it is as cheap as that of the whole chart.
+TEST(ChartDivision, NearASheetThereIsNoDearerCutThanInTheWholeChart)
+{
+	Random random(923);
+	const int around = 1000, across = 6, sheet = around / 11; // columns that are covered twice
+	for (const int waist : {sheet + 20, around - sheet - 20}) {
+		SurfaceMesh strip = screw(1.1, around, across);
+		for (int j = 0; j <= around; ++j) {
+			const double width = std::abs(j - waist) < 3 ? 0.3 : random.real(0.5, 1.0);
+			for (int i = 0; i <= across; ++i) {
+				Point3& p = strip.positions[at(i * (around + 1) + j)];
+				const double r = length(p);
+				p = (1.0 + (r - 1.0) * width) / r * p;
+			}
+		}
+		const FlatMesh chart = flatMesh(strip);
+		const OverlapSearch overlaps(chart.corners());
+		std::vector<int> ends[2]; // what lies over itself, by its column
+		const Array<char> isIn = overlaps.overlapping();
+		for (const int f : isIn.indices())
+			if (isIn[f])
+				ends[f / 2 % around < around / 2 ? 0 : 1].push_back(f);
+		DualGraph whole(chart), divided(chart);
+		whole.part = leastCut(whole, ends[0], ends[1]);
+		const Parts parts = divideChart(chart, overlaps);
+		ASSERT_EQ(parts.size(), 2u);
+		for (const int f : parts[1])
+			divided.part[f] = 1;
+		const auto priceOf = [&](const DualGraph& graph) {
+			std::int64_t price = 0;
+			for (const int f : chart.points.indices())
+				for (const Corner side : cornersOf(f))
+					if (graph.joined(side).isValid() && !graph.neighbour(side).isValid())
+						price += graph.weight(side);
+			return price;
+		};
+		EXPECT_GT(priceOf(whole), 0);
+		EXPECT_LE(priceOf(divided), priceOf(whole));
+	}
+}
+
 /// A mesh over the plane, of which each part lies elsewhere.
 struct Scattered
 {
@@ -188,7 +230,6 @@ TEST(JoinParts, LeavesWhatHasNoRoomAndDividesCrumbs)
 	EXPECT_EQ(stays.edgesJoined, 0);
 }
 
-/// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.
 /// The flat faces of \p mesh, whose normals are axes: each a part that lies elsewhere.
 Parts flatFaces(const SurfaceMesh& mesh, Random& random, std::vector<Triangle2>& plane)
 {
@@ -251,6 +292,7 @@ TEST(JoinParts, CrumbsLengthenNoSeams)
 	}
 }
 
+/// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.
 TEST(ConnectedPieces, AreTheSmallerOnesWithAStart)
 {
 	Random random(1210);

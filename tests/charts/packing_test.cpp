@@ -403,12 +403,10 @@ TEST(Packing, KeepsTheChartsInTheSizeOfTheMesh)
 			EXPECT_EQ(own.report.overlapCuts, square.report.overlapCuts);
 			EXPECT_EQ(own.report.seamLength, square.report.seamLength);
 			EXPECT_EQ(own.report.margin, margin);
-			double area = 0.0, covered = 0.0;
-			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-				area += areaOf(mesh, f);
+			double covered = 0.0;
 			for (const Triangle2& t : square.mesh.corners())
 				covered += 0.5 * std::abs(doubledArea(t));
-			const double scale = std::sqrt(area / covered), side = own.mesh.box().extent();
+			const double scale = std::sqrt(areaOf(mesh) / covered), side = own.mesh.box().extent();
 			for (const int f : own.mesh.points.indices())
 				for (std::size_t k = 0; k < 3; ++k) {
 					const Triangle2 &a = own.mesh.at(f), &b = square.mesh.at(f);

@@ -178,29 +178,6 @@ double cost(const ConeModel& model, const SeamTree& tree)
 	return model.priceOf(model.energy()) + kSeamPrice * tree.length();
 }
 
-TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
-{
-	int moved = 0;
-	for (const int step : {7, 13, 19})
-		for (const double allowed : {1.0, 1.05, 1e9}) {
-			const int vertices = step == 7 ? 40 : -1; // where cones may lie
-			Search search(slab(0, 3), vertices);
-			ConeModel& model = search.with(search.places(step)).model;
-			const double distortion = model.distortion();
-			const std::vector<Vertex> before = model.vertices();
-			SeamTree tree(search.sites, before);
-			const double least = cost(model, tree);
-			shortenConeTree(model, tree, search.sites, allowed * distortion);
-			EXPECT_EQ(search.cones().size(), 5u);
-			EXPECT_LE(model.distortion(), allowed * distortion * (1 + 1e-9));
-			EXPECT_TRUE(vertices < 0 || search.cones().rbegin()->number() < vertices);
-			const bool hasMoved = model.vertices() != before;
-			EXPECT_LE(cost(model, tree), hasMoved ? least - 9e-5 : least + 1e-12);
-			moved += hasMoved;
-		}
-	EXPECT_GT(moved, 0);
-}
-
 /// At first as few as carry the total; a negative one goes where it lowers the energy more than at most
 /// vertices. After a fit the gradient is the same at all cones below their bound: curvature that moves from
 /// there to another vertex changes the energy by the difference. Each cone more lies where that is largest.

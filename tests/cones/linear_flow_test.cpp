@@ -4,8 +4,6 @@
 
 #include <ricci/cones/target_curvature.h>
 
-#include <Eigen/LU>
-
 namespace ricci::testing {
 namespace {
 
@@ -27,64 +25,6 @@ VertexVector sharesInLength(const EmbeddedSurface& surface)
 			for (const Vertex v : t.ends(e))
 				share[v] += surface.lengths[e];
 	return share / share.sum();
-}
-
-TEST(LinearFlow, SolvesTheDenseSystem)
-{
-	Random random(761);
-	for (const LinearCase& c : linearCases(760, 3, 1, 2, 0.05)) {
-		SCOPED_TRACE(c.name);
-		Linearised linear(c);
-		LinearFlow& flow = linear.flow;
-		const DenseFlow dense(linear);
-		const Topology& topology = linear.surface.topology;
-		EXPECT_LT((flow.curvature() - dense.curvature).lpNorm<Eigen::Infinity>(), 1e-12);
-		EXPECT_LT((flow.area() - dense.area).lpNorm<Eigen::Infinity>(), 1e-14);
-		EXPECT_EQ(flow.hasFixedSum(), topology.type.isClosed());
-
-		VertexVector rhs = randomVector(flow.vertexCount(), random);
-		VertexVector expected;
-		if (topology.type.isClosed()) { // one vertex takes what is missing from the sum
-			const VertexVector missed = dense.laplacian * flow.solve(rhs) - rhs;
-			Eigen::Index at = 0;
-			EXPECT_NEAR(missed.cwiseAbs().maxCoeff(&at), std::abs(rhs.sum()), 1e-6);
-			EXPECT_NEAR(missed.cwiseAbs().sum(), std::abs(rhs.sum()), 1e-4);
-			rhs.array() -= rhs.mean();
-			expected = dense.solve(rhs);
-		}
-		else if (c.boundary == ConeBoundary::Prescribed)
-			expected = dense.solve(rhs - rhs.sum() * sharesInLength(linear.surface));
-		else { // u = 0 on the boundary
-			Eigen::MatrixXd laplacian = dense.laplacian;
-			VertexVector inside = rhs;
-			for (const Vertex v : rhs.indices())
-				if (topology.boundary[v]) {
-					laplacian.row(v.number()).setZero();
-					laplacian(v.number(), v.number()) = 1.0;
-					inside[v] = 0.0;
-				}
-			expected = laplacian.partialPivLu().solve(inside);
-			expected.array() -= dense.area.dot(expected);
-		}
-		const VertexVector u = flow.solve(rhs);
-		EXPECT_NEAR(flow.area().dot(u), 0.0, 1e-13);
-		const double size = expected.lpNorm<Eigen::Infinity>();
-		EXPECT_GT(size, 0.1); // or there is nothing to compare
-		EXPECT_LT((u - expected).lpNorm<Eigen::Infinity>(), 1e-7 * size);
-		EXPECT_NEAR(flow.meanSquare(u), dense.area.dot(u.cwiseProduct(u)), 1e-12 * size * size);
-
-		// The gradient solves the adjoint problem.
-		for (int trial = 0; trial < 5; ++trial) {
-			VertexVector a = randomVector(flow.vertexCount(), random);
-			VertexVector b = randomVector(flow.vertexCount(), random);
-			b.array() -= flow.area().dot(b); // like all u
-			if (flow.hasFixedSum())
-				a.array() -= a.mean();
-			const VertexVector solution = flow.solve(a), phi = flow.gradient(b);
-			const double left = solution.dot(flow.area().cwiseProduct(b));
-			EXPECT_NEAR(left, a.dot(phi), 1e-12 * (1.0 + std::abs(left)));
-		}
-	}
 }
 
 /// A flow to five cones.

@@ -178,22 +178,6 @@ TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 	EXPECT_LE(lengthOf(whole, p.lengths), before * (1 + 1e-12));
 }
 
-TEST(ShortenCut, KeepsOffForbiddenEdges)
-{
-	Random random(723);
-	const Packed p(bumpyTorus(14, 9, random));
-	const VertexArray<char> unmarked(p.radii.size(), 0);
-	EdgeArray<char> isCut = clumsyCut(p.triangulation, unmarked);
-	EdgeArray<double> cost = p.lengths;
-	for (const Edge e : cost.indices())
-		if (e.number() % 3 == 0 && !isCut[e])
-			cost[e] = kInfinity;
-	shortenCut(p.triangulation, cost, unmarked, isCut);
-	expectDiskThroughMarks(p.triangulation, isCut, unmarked);
-	for (const Edge e : cost.indices())
-		EXPECT_FALSE(cost[e] == kInfinity && isCut[e]);
-}
-
 /// The cut opens the surface to a disk, knows how many edges it has, and ends at marked vertices alone.
 void expectCutToADisk(const Triangulation& t, const CutGraph& cut, const VertexArray<char>& marked)
 {

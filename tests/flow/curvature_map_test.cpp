@@ -41,19 +41,13 @@ Packed twoVertexTorus()
 	return Packed(t, lengths);
 }
 
-/// A symmetric matrix from its lower triangle.
-Eigen::MatrixXd bothTriangles(const FactoredHessian::Matrix& matrix)
-{
-	const Eigen::MatrixXd lower = matrix;
-	return lower.selfadjointView<Eigen::Lower>();
-}
-
 /// The whole Hessian with all vertices unknown, both triangles.
 Eigen::MatrixXd denseHessian(const CurvatureMap& map)
 {
 	FactoredHessian hessian(VertexArray<char>(map.triangulation().vertexCount(), 0), false);
 	hessian.fill(map, 0.0);
-	return bothTriangles(hessian.matrix());
+	const Eigen::MatrixXd lower = hessian.matrix();
+	return lower.selfadjointView<Eigen::Lower>();
 }
 
 /// Closed, with boundaries, of several genera, and with angles down to 1e-3 degrees.
@@ -342,32 +336,6 @@ TEST(CurvatureMap, BrokenTrianglesHaveTheAnglesPiZeroZeroAndNoDerivative)
 		}
 	EXPECT_GT(broken, 100);
 	EXPECT_GT(checked, 1000);
-}
-
-TEST(FactoredHessian, RestrictsToTheUnknownVertices)
-{
-	Random random(53);
-	const Packed mesh(randomPlanarDisk(5, random));
-	Map map = mesh.map();
-	map.evaluate(mesh.u());
-	const Eigen::MatrixXd all = denseHessian(map);
-	VertexArray<char> fixed(mesh.triangulation.vertexCount(), 0);
-	for (const Vertex v : fixed.indices())
-		fixed[v] = v.number() % 3 == 0;
-	FactoredHessian hessian(fixed, true);
-	hessian.fill(map, 0.5);
-	const Eigen::MatrixXd part = bothTriangles(hessian.matrix());
-	const VertexArray<int>& row = hessian.row();
-	for (const Vertex v : fixed.indices()) {
-		EXPECT_EQ(row[v] < 0, fixed[v] != 0);
-		for (const Vertex w : fixed.indices())
-			if (!fixed[v] && !fixed[w]) {
-				EXPECT_NEAR(
-					part(row[v], row[w]),
-					all(v.number(), w.number()) + (v == w ? 0.5 : 0.0),
-					1e-13);
-			}
-	}
 }
 
 } // namespace

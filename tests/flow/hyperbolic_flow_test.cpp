@@ -122,11 +122,6 @@ TEST(HyperbolicFlow, BoundariesAreGeodesicOrKeepTheirCircles)
 		for (std::size_t v = 0; v < boundary.size(); ++v)
 			if (!boundary[v])
 				inside.push_back(v);
-		double area = 0.0;
-		for (const Triangle& t : mesh.triangles) {
-			const Point3& p = mesh.positions[at(t[0])];
-			area += 0.5 * length(cross(mesh.positions[at(t[1])] - p, mesh.positions[at(t[2])] - p));
-		}
 		const Circles circles(mesh);
 		for (const double K : {0.0, 2.0, -2.0}) {
 			SCOPED_TRACE(K);
@@ -142,7 +137,7 @@ TEST(HyperbolicFlow, BoundariesAreGeodesicOrKeepTheirCircles)
 			free.method = Method::FixedTriangles;
 			const FlatResult fixed = inUnitDisk(mesh, free, prescribing(curvature));
 			expectReachedInDisk(mesh, fixed, true);
-			const double scale = std::sqrt(2 * kPi * std::max(1, std::abs(chi)) / area);
+			const double scale = std::sqrt(2 * kPi * std::max(1, std::abs(chi)) / areaOf(mesh));
 			for (std::size_t v = 0; v < boundary.size(); ++v)
 				if (boundary[v]) {
 					const double radius = 2 * std::atanh(std::exp(fixed.u[v]));

@@ -2,19 +2,14 @@
 // Runs the fuzz target without libFuzzer: on files, and on inputs from a generator of its own,
 // which are the same on every run. Does not watch coverage.
 //
-//     ricci_fuzz [--runs N] [--seconds S] [--seed K] [--pack-every N] [--sentences] [--go-on]
-//                [--find TEXT] [--patience S] [FILE|FOLDER...]
+//     ricci_fuzz [--runs N] [--seed K] [--go-on] [--patience S] [FILE|FOLDER...]
 //
 // Ends at the first defect, with 1 and the input in the file "defect-input" (with --go-on, at the
 // end, and the n-th input in "defect-input-n"); a crash or a hang leaves its input there as well.
-// --pack-every: of N generated inputs only the first may have its charts fitted into the unit square; 0:
-// none may, nor that of a FILE. --find leaves the inputs whose refusal contains TEXT in "found-input-n".
 #include "facade_check.h"
 #include "support/random.h"
 
 #include <algorithm>
-#include <cctype>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -71,38 +66,20 @@ void setPatience(int seconds)
 	setitimer(ITIMER_VIRTUAL, &timer, nullptr);
 }
 
-/// Every number as one sign.
-std::string withoutNumbers(const std::string& sentence)
-{
-	std::string text;
-	for (std::size_t i = 0; i < sentence.size(); ++i)
-		if (std::isdigit(static_cast<unsigned char>(sentence[i])) == 0)
-			text += sentence[i];
-		else if (text.empty() || text.back() != '#')
-			text += '#';
-	return text;
-}
-
 class Session
 {
 public:
 	void goOn() { m_goOn = true; }
-	void find(const std::string& text) { m_find = text; }
 	int defects() const { return m_defects; }
 
 	/// False at a defect.
-	bool execute(const Input& input, bool mayPack = true)
+	bool execute(const Input& input)
 	{
 		running = &input;
 		setPatience(patience);
-		const ricci::testing::Execution e =
-			ricci::testing::runFacade(input.data(), input.size(), mayPack);
+		const ricci::testing::Execution e = ricci::testing::runFacade(input.data(), input.size());
 		setPatience(0);
 		++m_count[e.verdict];
-		if (e.verdict == ricci::testing::Verdict::Refused)
-			++m_sentences[withoutNumbers(e.sentence).substr(0, 70)];
-		if (!m_find.empty() && e.sentence.find(m_find) != std::string::npos)
-			saveInput(("found-input-" + std::to_string(++m_found)).c_str());
 		if (e.defect.empty())
 			return true;
 		const std::string name =
@@ -121,7 +98,7 @@ public:
 		return sum;
 	}
 
-	void print(bool sentences)
+	void print()
 	{
 		using ricci::testing::Verdict;
 		std::printf(
@@ -130,17 +107,12 @@ public:
 			m_count[Verdict::Mapped],
 			m_count[Verdict::Refused],
 			m_count[Verdict::Cancelled]);
-		for (const auto& [sentence, n] : m_sentences)
-			if (sentences)
-				std::printf("%8ld  %s\n", n, sentence.c_str());
 	}
 
 private:
 	bool m_goOn = false;
-	std::string m_find;
-	int m_defects = 0, m_found = 0;
+	int m_defects = 0;
 	std::map<ricci::testing::Verdict, long> m_count;
-	std::map<std::string, long> m_sentences; // by their beginnings
 };
 
 Input readFile(const std::filesystem::path& path)
@@ -174,29 +146,20 @@ Input generate(const std::vector<Input>& corpus, ricci::testing::Random& random)
 int main(int argc, char** argv)
 {
 	Session session;
-	long runs = 0, seconds = 0, packEvery = 1;
+	long runs = 0;
 	std::uint64_t seed = 1;
-	bool sentences = false;
 	std::vector<std::filesystem::path> files;
 	for (int i = 1; i < argc; ++i) {
 		const std::string argument = argv[i];
 		const auto value = [&] { return i + 1 < argc ? std::atol(argv[++i]) : 0; };
 		if (argument == "--runs")
 			runs = value();
-		else if (argument == "--seconds")
-			seconds = value();
-		else if (argument == "--pack-every")
-			packEvery = value();
 		else if (argument == "--patience")
 			patience = static_cast<int>(value());
 		else if (argument == "--seed")
 			seed = static_cast<std::uint64_t>(value());
-		else if (argument == "--sentences")
-			sentences = true;
 		else if (argument == "--go-on")
 			session.goOn();
-		else if (argument == "--find" && i + 1 < argc)
-			session.find(argv[++i]);
 		else if (std::filesystem::is_directory(argument))
 			for (const auto& entry : std::filesystem::directory_iterator(argument))
 				files.push_back(entry.path());
@@ -210,21 +173,20 @@ int main(int argc, char** argv)
 	std::sort(files.begin(), files.end());
 	for (const auto& file : files) {
 		corpus.push_back(readFile(file));
-		if (!session.execute(corpus.back(), packEvery > 0)) {
+		if (!session.execute(corpus.back())) {
 			std::printf("in %s\n", file.c_str());
 			return 1;
 		}
 	}
 	ricci::testing::Random random(seed);
-	const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
-	for (long i = 0; i < runs || std::chrono::steady_clock::now() < end; ++i) {
-		if (!session.execute(generate(corpus, random), packEvery > 0 && i % packEvery == 0))
+	for (long i = 0; i < runs; ++i) {
+		if (!session.execute(generate(corpus, random)))
 			return 1;
 		if (session.executions() % kBetweenReports == 0) {
-			session.print(false);
+			session.print();
 			std::fflush(stdout);
 		}
 	}
-	session.print(sentences);
+	session.print();
 	return session.defects() > 0;
 }

@@ -2,6 +2,7 @@
 #include "facade_check.h"
 
 #include "hostile_mesh.h"
+#include "support/bytes.h"
 #include "support/mesh_contents.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
@@ -241,12 +241,8 @@ bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report
 template<class Mesh>
 std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
 {
-	std::string all;
-	const auto put = [&](const auto& value) {
-		char bytes[sizeof value];
-		std::memcpy(bytes, &value, sizeof value);
-		all.append(bytes, sizeof value);
-	};
+	Bytes bytes;
+	const auto put = [&](const auto& value) { bytes.add(value); };
 	for (std::size_t v = 0; v < vertices; ++v) {
 		for (int k = 0; k < 3; ++k) {
 			put(m.vert[v].cP()[k]);
@@ -255,7 +251,7 @@ std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
 		put(m.vert[v].cFlags());
 	}
 	if (!faces)
-		return all;
+		return bytes.all;
 	put(m.vert.size());
 	put(m.face.size());
 	for (const auto& f : m.face) {
@@ -265,7 +261,7 @@ std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
 		}
 		put(f.cFlags());
 	}
-	return all;
+	return bytes.all;
 }
 
 /// Sentences that speak of numbers and options, not of how faces are connected.
@@ -557,11 +553,10 @@ Execution run(const HostileMesh& hostile)
 
 } // namespace
 
-Execution runFacade(const std::uint8_t* data, std::size_t size, bool mayPack)
+Execution runFacade(const std::uint8_t* data, std::size_t size)
 {
 	ByteSource bytes(data, size);
-	HostileMesh hostile(bytes);
-	hostile.normalizeUV = hostile.normalizeUV && mayPack;
+	const HostileMesh hostile(bytes);
 	const auto once = [&] {
 		return hostile.doublePrecision ? run<DoubleMesh>(hostile) : run<FloatMesh>(hostile);
 	};

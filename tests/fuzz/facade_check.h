@@ -21,9 +21,7 @@ struct Execution
 /// with a sentence comes back, not for how faces are connected, and the mesh is bit for bit as before,
 /// or a finite map of every face with a converged residual, in the unit square if asked, whose reported
 /// number of flipped faces is that of an exact count of what was written.
-/// \param mayPack false: charts are not fitted into the unit square, which takes longer than all else on
-/// meshes as small as these
-Execution runFacade(const std::uint8_t* data, std::size_t size, bool mayPack = true);
+Execution runFacade(const std::uint8_t* data, std::size_t size);
 
 } // namespace ricci::testing
 

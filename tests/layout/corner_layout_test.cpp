@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layouts of a flow along any cut, against its lengths and scale factors. common_refinement_test.cpp has what the
 // result shows.
-#include "support/closed_flows.h"
 #include "support/complex.h"
+#include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
+#include "support/random_surface.h"
 #include "support/refinement_check.h"
+#include "support/shapes.h"
 
 #include <ricci/layout/corner_layout.h>
 #include <ricci/mesh/normal_coordinates.h>
@@ -18,6 +20,25 @@
 
 namespace ricci::testing {
 namespace {
+
+/// Flows on closed surfaces of genus 0, 1 and 2 that flip many edges, before the first step and after
+/// it. Every vertex has a curvature of its own.
+std::vector<FlippedFlow> closedFlows(Random& random)
+{
+	const std::vector<SurfaceMesh> meshes{
+		shaken(perforatedSlab(0, 3), 0.15, random),
+		bumpyTorus(12, 9, random),
+		foldedTorus(3, 3, 0.1, random),
+		shaken(perforatedSlab(2, 2), 0.15, random)};
+	const int chi[] = {2, 0, 0, -2};
+	std::vector<FlippedFlow> flows;
+	for (std::size_t i = 0; i < meshes.size(); ++i) {
+		const int vertices = static_cast<int>(meshes[i].positions.size());
+		flows.emplace_back(
+			meshes[i], prescribed(randomCurvature(vertices, chi[i], -4.0, 3.0, 1.0, random)));
+	}
+	return flows;
+}
 
 /// Closed, and with a boundary, on whose double some of them run.
 std::vector<FlippedFlow> flows(std::uint64_t seed)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "expect_period_matrix.h"
 #include "support/complex.h"
 #include "support/random.h"
 #include "support/siegel_distance.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces whose period matrix is known: flat tori, squares, and hyperelliptic curves.
-#include "expect_period_matrix.h"
 #include "support/complex.h"
 #include "support/dense.h"
 #include "support/intrinsic.h"

@@ -2,10 +2,8 @@
 // The surfaces that the flow runs on: their topology, and creases.
 #include "support/expect.h"
 #include "support/intrinsic.h"
-#include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
 #include <ricci/mesh/sides.h>
 
@@ -40,22 +38,6 @@ TEST(Triangulation, RefusesAnEdgeOfTwoTrianglesThatDisagree)
 	}
 }
 
-TEST(Topology, OfSurfacesThatNoMeshHas)
-{
-	const Topology torus = topologyOf(oneVertexTorus());
-	EXPECT_TRUE(torus.type.isTorus());
-	EXPECT_TRUE(torus.loops.empty());
-	// One triangle with two sides glued: a disk, whose boundary is one edge from a vertex to itself.
-	const Topology cone = topologyOf(glued(2, {{0, 1, 0}}, {1, 0, -1}));
-	EXPECT_TRUE(cone.type.isDisk());
-	EXPECT_EQ(cone.loops, (std::vector<std::vector<Vertex>>{{Vertex(0)}}));
-	EXPECT_EQ(cone.boundary, (VertexArray<char>{1, 0}));
-	// Vertices without a face do not count.
-	const Topology triangle = topologyOf(Triangulation(9, {{4, 1, 2}}));
-	EXPECT_TRUE(triangle.type.isDisk());
-	EXPECT_EQ(triangle.boundary, (VertexArray<char>{0, 1, 1, 0, 1, 0, 0, 0, 0}));
-}
-
 TEST(Topology, HasANameForEveryType)
 {
 	const std::pair<SurfaceMesh, const char*> cases[] = {
@@ -67,50 +49,6 @@ TEST(Topology, HasANameForEveryType)
 		{withoutStars(torus(3, 1, 9, 9), {0}), "a surface of genus 1 with 1 boundary loop"}};
 	for (const auto& [mesh, name] : cases)
 		EXPECT_EQ(topologyOf(glued(mesh)).type.name(), name);
-}
-
-/// With the tree, they open a closed surface to one disk: the faces stay connected, and all that is left has
-/// Euler characteristic 1. No other set of edges that does is shorter: each exchange of one of them for an
-/// edge outside leaves a longer loop or divides the faces.
-TEST(Cotree, LeavesTheShortestLoopsThatOpenTheSurface)
-{
-	Random random(612);
-	for (int genus = 0; genus <= 3; ++genus) {
-		const Triangulation t = glued(shaken(perforatedSlab(genus, 2), 0.05, random));
-		const auto paths = shortestPaths<Vertex, Halfedge>(
-			t.vertexCount(), {Vertex(0)}, [&](Vertex v, const auto& visit) {
-				for (const Halfedge h : t.around(v))
-					visit(t.target(h), 1.0, h);
-			});
-		EdgeArray<char> inTree(t.edgeCount(), 0), isLeft(t.edgeCount(), 0);
-		for (const Halfedge h : paths.parents())
-			if (h.isValid())
-				inTree[h.edge()] = 1;
-		EdgeArray<double> length(t.edgeCount(), 0.0);
-		for (double& l : length)
-			l = random.real(1.0, 2.0);
-		const std::vector<Edge> rest = edgesBesideCotree(t, inTree, length);
-		ASSERT_EQ(rest.size(), at(2 * genus));
-		for (const Edge e : rest)
-			isLeft[e] = 1;
-		const auto pieces = [&] {
-			DisjointSetsOf<Face> joined(t.faceCount());
-			int count = t.faceCount();
-			for (const Edge e : t.edges())
-				if (!inTree[e] && !isLeft[e])
-					count -= joined.merge(t.face(e.halfedge()), t.face(e.halfedge().twin()));
-			return count;
-		};
-		EXPECT_EQ(pieces(), 1);
-		for (const Edge e : rest)
-			for (const Edge other : t.edges()) {
-				if (inTree[other] || isLeft[other] || length[other] >= length[e])
-					continue;
-				std::swap(isLeft[e], isLeft[other]);
-				EXPECT_GT(pieces(), 1);
-				std::swap(isLeft[e], isLeft[other]);
-			}
-	}
 }
 
 Creases creasesOf(const SurfaceMesh& mesh, double degrees)

@@ -262,23 +262,6 @@ TEST(OpenedSurfaces, AreOpenAlongSeamsAndNowhereElse)
 			}
 }
 
-/// A seam of one edge gets two sides wherever it lies.
-TEST(OpenedSurfaces, AreOpenAtEveryLoneEdge)
-{
-	for (SurfaceMesh mesh : {tetrahedron(), torus(3.0, 1.0, 7, 6), rectangle(5, 4, 5.0, 4.0)})
-		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-			for (std::size_t k = 0; k < 3; ++k) {
-				mesh.seam.assign(mesh.triangles.size(), {0, 0, 0});
-				mesh.seam[f][k] = 1;
-				const Triangle& t = mesh.triangles[f];
-				const auto sides =
-					pointsOfEdges(mesh, mapOf(mesh)).at(std::minmax(t[k], t[(k + 1) % 3]));
-				if (sides.size() == 2) { // else it is on the boundary
-					EXPECT_FALSE(sides[0] == sides[1]) << f << ", " << k;
-				}
-			}
-}
-
 /// Cut along one loop through each crosscap the surface is a disk with as many holes. Three edges go
 /// round a crosscap, a loop from a vertex beside it may take a few more. Each loop takes time in proportion to
 /// the surface: after 64 of them what is left is cut at once, wherever an orientation does not fit, along

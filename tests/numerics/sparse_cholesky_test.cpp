@@ -6,7 +6,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -196,28 +195,6 @@ TEST(SparseCholesky, IteratesWithTheFactorOfANearbyMatrix)
 	EXPECT_LT(
 		(near.selfadjointView<Eigen::Lower>() * solver.solve(b) - b).lpNorm<Eigen::Infinity>(),
 		1e-12);
-}
-
-TEST(SparseCholesky, SolvesForASingleEntry)
-{
-	Random random(66);
-	SparseCholesky solver;
-	const int n = 90;
-	const SparseCholesky::Matrix matrix = laplacian(n, 0.5, random);
-	ASSERT_TRUE(solver.factorize(matrix));
-	const Eigen::MatrixXd lower = matrix;
-	const Eigen::MatrixXd inverse =
-		Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()).inverse();
-	for (int i = 0; i < n; ++i) {
-		const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(n, i));
-		EXPECT_LT((x - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
-		const int other = n - 1 - i;
-		Eigen::MatrixXd two(n, 2), expected(n, 2);
-		two << Eigen::VectorXd::Unit(n, i), Eigen::VectorXd::Unit(n, other);
-		expected << inverse.col(i), inverse.col(other);
-		EXPECT_LT((solver.solve(two) - expected).cwiseAbs().maxCoeff(), 1e-12);
-	}
-	EXPECT_EQ(solver.solve(Eigen::VectorXd::Zero(n)), Eigen::VectorXd::Zero(n));
 }
 
 /// A random positive definite matrix whose groups of unknowns are full blocks. The first and the

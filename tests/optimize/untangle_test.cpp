@@ -68,41 +68,6 @@ struct Whole
 	}
 };
 
-double sumOfAreas(const FlatMesh& flat)
-{
-	double sum = 0.0;
-	for (const int f : flat.points.indices()) {
-		const Triangle2 p = flat.at(f);
-		sum += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-	}
-	return sum;
-}
-
-/// A map of a disk that keeps the border of a convex region and turns no triangle covers it once.
-TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
-{
-	for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-		SCOPED_TRACE(seed);
-		const Whole whole(tangled(20, seed));
-		ASSERT_EQ(whole.patch.triangles.size(), std::size_t(2 * kSide * kSide));
-		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
-		ASSERT_GT(notCounterClockwise(whole.flat), 0);
-		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
-		const Untangled result = whole.solvedBy(untangle);
-		ASSERT_FALSE(result.points.empty());
-		EXPECT_GT(result.steps, 0);
-		const FlatMesh moved = whole.with(result.points);
-		EXPECT_EQ(notCounterClockwise(moved), 0);
-		EXPECT_NEAR(sumOfAreas(moved), kSide * kSide, 1e-10);
-		for (const int p : moved.place.indices())
-			if (!isInside(p)) {
-				EXPECT_EQ(moved.place[p], whole.flat.place[p]);
-			}
-		for (const int f : moved.points.indices())
-			EXPECT_TRUE(kValid.isValid(moved.at(f)));
-	}
-}
-
 /// The rest shapes fit together inside the border: there the energy is least.
 TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 {

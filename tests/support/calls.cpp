@@ -1,37 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calls.h"
 
+#include "bytes.h"
+
 #include <ostream>
-#include <type_traits>
 
 namespace ricci::testing {
 
 namespace {
-
-/// The bytes of numbers, and of arrays of them.
-class Bytes
-{
-public:
-	template<class T>
-	void add(const T& value)
-	{
-		static_assert(std::is_trivially_copyable_v<T>);
-		m_all.append(reinterpret_cast<const char*>(&value), sizeof value);
-	}
-	template<class Range>
-	void addAll(const Range& range)
-	{
-		for (const auto& value : range)
-			add(value);
-		m_all += '|';
-	}
-	void addText(const std::string& text) { m_all += text + '|'; }
-
-	const std::string& all() const { return m_all; }
-
-private:
-	std::string m_all;
-};
 
 void addMesh(const FlatMesh& mesh, Bytes& bytes)
 {
@@ -166,9 +142,9 @@ std::string bitsOf(const Outcome& outcome)
 		bytes.add(state.step);
 		bytes.add(state.residual);
 	}
-	bytes.addText(map.report.choice);
+	bytes.addAll(map.report.choice);
 	for (const std::string& note : map.notes)
-		bytes.addText(note);
+		bytes.addAll(note);
 	bytes.addAll(map.vertexQC);
 	bytes.addAll(map.targetCurvature);
 	bytes.addAll(map.placedCones);
@@ -176,7 +152,7 @@ std::string bitsOf(const Outcome& outcome)
 	bytes.addAll(outcome.sphere.vertex);
 	bytes.addAll(outcome.sphere.triangles);
 	bytes.add(outcome.sphere.pole);
-	return bytes.all();
+	return bytes.all;
 }
 
 } // namespace ricci::testing

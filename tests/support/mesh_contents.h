@@ -2,10 +2,11 @@
 #ifndef RICCI_TESTS_MESH_CONTENTS_H
 #define RICCI_TESTS_MESH_CONTENTS_H
 
+#include "bytes.h"
+
 #include <vcg/complex/complex.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace ricci::testing {
@@ -15,12 +16,8 @@ namespace ricci::testing {
 template<class Mesh>
 std::string contents(const Mesh& m)
 {
-	std::string all;
-	const auto put = [&](const auto& value) {
-		char bytes[sizeof value];
-		std::memcpy(bytes, &value, sizeof value);
-		all.append(bytes, sizeof value);
-	};
+	Bytes bytes;
+	const auto put = [&](const auto& value) { bytes.add(value); };
 	put(m.vn);
 	put(m.fn);
 	put(m.vert.size());
@@ -50,17 +47,17 @@ std::string contents(const Mesh& m)
 	}
 	const auto putAttributes = [&](const auto& attributes, std::size_t count) {
 		for (const auto& a : attributes) {
-			all += a._name;
+			bytes.all += a._name;
 			put(a._sizeof);
 			for (std::size_t i = 0; i < count; ++i)
-				all.append(
+				bytes.all.append(
 					static_cast<const char*>(a._handle->At(i)),
 					static_cast<std::size_t>(a._sizeof));
 		}
 	};
 	putAttributes(m.vert_attr, m.vert.size());
 	putAttributes(m.face_attr, m.face.size());
-	return all;
+	return bytes.all;
 }
 
 } // namespace ricci::testing

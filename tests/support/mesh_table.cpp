@@ -26,18 +26,12 @@ using namespace ricci;
 const char* const kUsage =
 	"usage: mesh_table [option...] MESH...\n"
 	"  --target T           automatic, flat, disk, rectangle, cones; may be given several times\n"
-	"  --cone-count N       of placed cones\n"
-	"  --cone-distortion X  that decides their number\n"
-	"  --cone-rounding R    free, quarter\n"
+	"  --cone-distortion X  that decides the number of cones\n"
 	"  --method M           flips, fixed, swaps, thurston\n"
 	"  --finish F           none, repair, least, stretch\n"
 	"  --refine             give the map on the common refinement (method flips)\n"
-	"  --capped             close all boundary loops but the longest for the flow\n"
-	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
 	"  --packed             go on to the unit square; count overlaps there\n"
 	"  --margin M           between the charts, with --packed\n"
-	"  --prescribe-boundary free_boundary off\n"
-	"  --epsilon X          radians\n"
 	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
 	"  --verbose            the log on standard error\n";
 
@@ -106,29 +100,12 @@ Arguments parse(int argc, char** argv)
 				 {"stretch", Finish::LeastStretch}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
-		else if (word == "--capped")
-			a.options.holes = Holes::Capped;
-		else if (word == "--charts")
-			a.options.charts = choose<Charts>(
-				value(),
-				{{"flow", Charts::OfTheFlow},
-				 {"separate", Charts::WithoutOverlap},
-				 {"strips", Charts::CutForPacking}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")
 			a.margin = std::atof(value().c_str());
-		else if (word == "--prescribe-boundary")
-			a.options.freeBoundary = false;
-		else if (word == "--epsilon")
-			a.options.epsilon = std::atof(value().c_str());
-		else if (word == "--cone-count")
-			a.options.cones.count = std::atoi(value().c_str());
 		else if (word == "--cone-distortion")
 			a.options.cones.distortion = std::atof(value().c_str());
-		else if (word == "--cone-rounding")
-			a.options.cones.rounding = choose<ConeRounding>(
-				value(), {{"free", ConeRounding::Free}, {"quarter", ConeRounding::QuarterTurns}});
 		else if (word == "--obj")
 			a.objFolder = value();
 		else if (word == "--verbose")
@@ -145,20 +122,6 @@ Arguments parse(int argc, char** argv)
 	return a;
 }
 
-class Listener : public Progress
-{
-public:
-	explicit Listener(bool verbose) : m_verbose(verbose) {}
-	void log(const std::string& line) override
-	{
-		if (m_verbose)
-			std::cerr << "  " << line << "\n";
-	}
-
-private:
-	bool m_verbose;
-};
-
 void printHeader()
 {
 	std::printf("mesh\ttarget\tV\tF");
@@ -171,7 +134,6 @@ void printHeader()
 struct Outcome
 {
 	Report report;
-	std::vector<std::string> notes;
 	SurfaceMesh drawn;
 	testing::UV uv;
 	std::vector<char> reversed; ///< [face drawn]
@@ -198,7 +160,6 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
-	out.notes = flat.notes;
 	draw(flat.mesh, whole.opened.mesh.positions, out);
 	out.reversed.assign(out.uv.size(), 0);
 	return out;
@@ -220,7 +181,6 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
-	out.notes = flat.notes;
 	std::vector<std::string> notes;
 	const OpenedMesh opened = openMesh(mesh, notes);
 	draw(flat.mesh, mesh.positions, out);
@@ -269,12 +229,19 @@ bool addRow(
 		std::fflush(stdout);
 		Options options = a.options;
 		options.target = target;
-		Listener listener(a.verbose);
+		struct : Progress
+		{
+			void log(const std::string& line) override
+			{
+				if (isVerbose)
+					std::cerr << "  " << line << "\n";
+			}
+			bool isVerbose = false;
+		} listener;
+		listener.isVerbose = a.verbose;
 		const Outcome out =
 			a.packed ? runPacked(mesh, options, a, listener) : runCore(mesh, options, listener);
 		printResult(out, a.packed);
-		for (const std::string& note : out.notes)
-			listener.log(note);
 		if (!a.objFolder.empty())
 			testing::writeObj(
 				(std::filesystem::path(a.objFolder) / (name + "." + targetName + ".obj")).string(),

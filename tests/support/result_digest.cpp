@@ -1,158 +1,76 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints a digest of every array and number that runs on meshes give back, a line for each: what a
-// change that should change nothing is compared by, bit for bit.
+// Prints what runs on meshes give back, a line for each number and a digest of all arrays: what a change that
+// should change nothing is compared by, bit for bit.
+#include "bytes.h"
 #include "calls.h"
 #include "mesh_file.h"
-#include "vcg_mesh.h"
-
-#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
-#include <functional>
 
 namespace {
 
 using namespace ricci;
-using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
+using testing::inDisk;
+using testing::with;
+
+using AnyOptions = decltype(testing::Call::options);
+
+const std::vector<std::pair<std::string, AnyOptions>> kCases = {
+	{"default", Options()},
+	{"refined", with([](Options& o) { o.output = OutputTriangulation::CommonRefinement; })},
+	{"placed", with([](Options& o) { o.target = TargetCurvature::PlacedCones; })},
+	{"counted", with([](Options& o) { o.cones.count = 9; })},
+	{"spread", with([](Options& o) { o.cones.distortion = 0.2; })},
+	{"quarter", with([](Options& o) {
+		 o.target = TargetCurvature::PlacedCones;
+		 o.cones.rounding = ConeRounding::QuarterTurns;
+	 })},
+	{"flat", with([](Options& o) { o.target = TargetCurvature::Flat; })},
+	{"disk", with([](Options& o) { o.target = TargetCurvature::Disk; })},
+	{"rectangle", with([](Options& o) { o.target = TargetCurvature::Rectangle; })},
+	{"prescribed_boundary", with([](Options& o) { o.freeBoundary = false; })},
+	{"capped", with([](Options& o) { o.holes = Holes::Capped; })},
+	{"strips_unscaled", with([](Options& o) {
+		 o.charts = Charts::CutForPacking;
+		 o.chartMargin = 0.01;
+	 })},
+	{"no_surgery", with([](Options& o) { o.method = Method::FixedTriangles; })},
+	{"edge_swap", with([](Options& o) { o.method = Method::EdgeSwaps; })},
+	{"thurston", with([](Options& o) { o.method = Method::Thurston; })},
+	{"hyperbolic", inDisk([](HyperbolicOptions& o) { o.canonicalGenerators = true; })},
+	{"hyperbolic_refined",
+	 inDisk([](HyperbolicOptions& o) { o.output = OutputTriangulation::CommonRefinement; })},
+	{"hyperbolic_no_surgery",
+	 inDisk([](HyperbolicOptions& o) { o.method = Method::FixedTriangles; })},
+	{"sphere", testing::SphereOptions()}};
 
 /// FNV-1a of the bytes.
-class Digest
+std::uint64_t digestOf(const std::string& bytes)
 {
-public:
-	template<class Number>
-	void add(const Number& x)
-	{
-		unsigned char bytes[sizeof x];
-		std::memcpy(bytes, &x, sizeof x);
-		for (const unsigned char byte : bytes)
-			m_value = (m_value ^ byte) * 1099511628211ull;
-	}
-	template<class Range>
-	void addAll(const Range& range)
-	{
-		for (const auto& x : range)
-			add(x);
-	}
-	std::uint64_t value() const { return m_value; }
-
-private:
-	std::uint64_t m_value = 14695981039346656037ull;
-};
-
-void print(const std::string& run, const char* what, const Digest& digest)
-{
-	std::printf("%s\t%s\t%016llx\n", run.c_str(), what, (unsigned long long) (digest.value()));
+	std::uint64_t value = 14695981039346656037ull;
+	for (const char byte : bytes)
+		value = (value ^ static_cast<unsigned char>(byte)) * 1099511628211ull;
+	return value;
 }
 
-void print(const std::string& run, const char* what, double value)
+void print(const testing::Call& call)
 {
-	std::printf("%s\t%s\t%.17g\n", run.c_str(), what, value);
-}
-
-void printReport(const std::string& run, const Report& r)
-{
-	for (const testing::Figure& figure : testing::figuresOf(r))
-		print(run, figure.name, figure.value);
-	Digest periods;
-	periods.addAll(r.periodMatrix);
-	print(run, "periods", periods);
-}
-
-void printResult(const std::string& run, const Flow::Result& result)
-{
-	const bool isRefined = run.find("refined") != std::string::npos;
-	printReport(run, result.report);
-	Digest uv, qc, u, target, refined, group;
-	const FlatMesh& mesh = result.mesh;
-	u.addAll(result.u);
-	target.addAll(result.targetCurvature);
-	if (isRefined) {
-		refined.addAll(mesh.vertices);
-		refined.addAll(mesh.face);
-		refined.addAll(mesh.corners());
-		refined.addAll(result.vertexQC);
-		for (const SurfacePoint& p : mesh.source) {
-			refined.addAll(p.vertex);
-			refined.addAll(p.weight);
-		}
-	}
-	else {
-		std::vector<Triangle2> byFace(positionOf(mesh.size()));
-		for (const int f : mesh.face.indices())
-			byFace[positionOf(mesh.face[f])] = mesh.at(f);
-		uv.addAll(byFace);
-		qc.addAll(result.vertexQC);
-	}
-	for (const Chart& chart : result.charts) {
-		const FuchsianGroup& g = chart.group;
-		if (!result.report.relationError)
-			continue; // in the plane there is none
-		for (const auto* isometries : {&g.handles, &g.peripheral, &g.sides})
-			for (const DiskIsometry& isometry : *isometries) {
-				group.add(isometry.a);
-				group.add(isometry.b);
-			}
-		group.add(g.relationError);
-	}
-	print(run, "uv", uv);
-	print(run, "qc", qc);
-	print(run, "u", u);
-	print(run, "target", target);
-	print(run, "refined", refined);
-	print(run, "group", group);
-}
-
-struct Case
-{
-	const char* name;
-	std::function<void(Flow::Params&)> change;
-};
-
-const std::vector<Case> kCases = {
-	{"default", [](Flow::Params&) {}},
-	{"refined", [](Flow::Params& p) { p.output = OutputTriangulation::CommonRefinement; }},
-	{"placed", [](Flow::Params& p) { p.target = TargetCurvature::PlacedCones; }},
-	{"counted", [](Flow::Params& p) { p.cones.count = 9; }},
-	{"spread", [](Flow::Params& p) { p.cones.distortion = 0.2; }},
-	{"quarter",
-	 [](Flow::Params& p) {
-		 p.target = TargetCurvature::PlacedCones;
-		 p.cones.rounding = ConeRounding::QuarterTurns;
-	 }},
-	{"flat", [](Flow::Params& p) { p.target = TargetCurvature::Flat; }},
-	{"disk", [](Flow::Params& p) { p.target = TargetCurvature::Disk; }},
-	{"rectangle", [](Flow::Params& p) { p.target = TargetCurvature::Rectangle; }},
-	{"prescribed_boundary", [](Flow::Params& p) { p.freeBoundary = false; }},
-	{"capped", [](Flow::Params& p) { p.holes = Holes::Capped; }},
-	{"strips_unscaled",
-	 [](Flow::Params& p) {
-		 p.charts = Charts::CutForPacking;
-		 p.chartMargin = 0.01;
-	 }},
-	{"no_surgery", [](Flow::Params& p) { p.method = Method::FixedTriangles; }},
-	{"edge_swap", [](Flow::Params& p) { p.method = Method::EdgeSwaps; }},
-	{"thurston", [](Flow::Params& p) { p.method = Method::Thurston; }}};
-
-const std::vector<std::pair<const char*, std::function<void(HyperbolicOptions&)>>>
-	kHyperbolicCases = {
-		{"hyperbolic", [](HyperbolicOptions& o) { o.canonicalGenerators = true; }},
-		{"hyperbolic_refined",
-		 [](HyperbolicOptions& o) { o.output = OutputTriangulation::CommonRefinement; }},
-		{"hyperbolic_no_surgery", [](HyperbolicOptions& o) { o.method = Method::FixedTriangles; }}};
-
-template<class Run>
-void tryRun(const std::string& run, const Run& body)
-{
+	const char* const run = call.name.c_str();
 	try {
-		body();
+		const testing::Outcome outcome = outcomeOf(call);
+		for (const testing::Figure& figure : figuresOf(outcome))
+			std::printf("%s\t%s\t%.17g\n", run, figure.name, figure.value);
+		testing::Bytes u;
+		u.addAll(outcome.map.u);
+		std::printf("%s\tu\t%016llx\n", run, (unsigned long long) (digestOf(u.all)));
+		std::printf("%s\tall\t%016llx\n", run, (unsigned long long) (digestOf(bitsOf(outcome))));
 	}
 	catch (const std::exception& e) {
-		std::printf("%s\trefused\t%s\n", run.c_str(), e.what());
+		std::printf("%s\trefused\t%s\n", run, e.what());
 	}
 	std::fflush(stdout);
 }
@@ -168,40 +86,16 @@ int main(int argc, char** argv)
 			wanted.push_back(argv[++i]);
 		else
 			meshes.push_back(argv[i]);
-	const auto isWanted = [&](const std::string& name) {
-		return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-	};
-	for (const std::string& path : meshes) {
-		testing::DoubleMesh m;
+	for (const std::string& path : meshes)
 		try {
-			testing::toVcg(testing::readMesh(path), m);
+			const SurfaceMesh mesh = testing::readMesh(path);
+			const std::string name = std::filesystem::path(path).stem().string() + "\t";
+			for (const auto& [run, options] : kCases)
+				if (wanted.empty() || std::find(wanted.begin(), wanted.end(), run) != wanted.end())
+					print({name + run, mesh, options});
 		}
 		catch (const std::exception& e) {
 			std::fprintf(stderr, "%s: %s\n", path.c_str(), e.what());
 			return 2;
 		}
-		const std::string mesh = std::filesystem::path(path).stem().string() + "\t";
-		for (const Case& c : kCases)
-			if (isWanted(c.name))
-				tryRun(mesh + c.name, [&] {
-					Flow::Params params;
-					c.change(params);
-					printResult(mesh + c.name, Flow::Compute(m, params));
-				});
-		for (const auto& [name, change] : kHyperbolicCases)
-			if (isWanted(name))
-				tryRun(mesh + name, [&, change = change, name = name] {
-					HyperbolicOptions options;
-					change(options);
-					printResult(mesh + name, Flow::ComputeHyperbolic(m, options));
-				});
-		if (isWanted("sphere"))
-			tryRun(mesh + "sphere", [&] {
-				const SphereMap sphere = Flow::ComputeSphere(m, Flow::Params());
-				Digest digest;
-				digest.addAll(sphere.positions);
-				digest.addAll(sphere.triangles);
-				print(mesh + "sphere", "sphere", digest);
-			});
-	}
 }

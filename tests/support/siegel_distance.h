@@ -2,9 +2,19 @@
 #ifndef RICCI_TESTS_SIEGEL_DISTANCE_H
 #define RICCI_TESTS_SIEGEL_DISTANCE_H
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
 
 namespace ricci::testing {
+
+inline void expectPeriodMatrix(const Eigen::MatrixXcd& omega, Eigen::Index genus)
+{
+	ASSERT_EQ(omega.rows(), genus);
+	ASSERT_EQ(omega.cols(), genus);
+	EXPECT_LT((omega - omega.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+	const Eigen::MatrixXd imaginary = omega.imag();
+	EXPECT_EQ(imaginary.llt().info(), Eigen::Success);
+}
 
 /// The least distance of two period matrices in the Siegel upper half space, over all bases, that is over
 /// Sp(2g,Z): of the logarithms of the eigenvalues of one energy against the other the largest. Infinity where it

@@ -476,7 +476,7 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 	EXPECT_TRUE(std::is_sorted(drawing.fractions.begin(), drawing.fractions.end()));
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x)
-			ASSERT_EQ(result.at(x, y)[0], (size - 1 - y) / 64 * cells + x / 64);
+			ASSERT_EQ(result.at(x, y)[0], x / 64 * cells + (size - 1 - y) / 64);
 }
 
 TEST(TexelDensityTest, CountsTexelsOfAUnitOfLength)

@@ -4,6 +4,7 @@
 #define RICCI_TESTS_PAINTED_SQUARE_H
 
 #include "support/random.h"
+#include "support/shapes.h"
 
 #include <ricci/base/indexed.h>
 #include <ricci/texture/carry_texture.h>
@@ -40,19 +41,13 @@ struct Square
 {
 	explicit Square(int n)
 	{
-		for (int y = 0; y < n; ++y)
-			for (int x = 0; x < n; ++x) {
-				const int a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = a + n + 1;
-				for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
-					triangles.push_back(t);
-					Triangle2 at;
-					for (std::size_t k = 0; k < 3; ++k)
-						at[k] = {
-							static_cast<double>(t[k] % (n + 1)) / n,
-							static_cast<double>(t[k] / (n + 1)) / n};
-					place.push_back(at);
-				}
-			}
+		const SurfaceMesh mesh = rectangle(n, n, 1.0, 1.0);
+		triangles = mesh.triangles;
+		for (const Triangle& t : triangles) {
+			place.emplace_back();
+			for (std::size_t k = 0; k < 3; ++k)
+				place.back()[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
+		}
 	}
 
 	std::vector<Triangle> triangles;
