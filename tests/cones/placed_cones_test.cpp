@@ -260,6 +260,15 @@ TEST(PlacedCones, AreAsManyAsLowerEnergyAndPriceOfSeams)
 	}
 }
 
+/// Those found on aggregates and tidied on the surface cost no more than those of a coarser mesh that is searched whole.
+TEST(PlacedCones, CostTheSameOnFinerMeshes)
+{
+	const auto costOfSlab = [](int n) { return cost(placed(slab(1, n, 0.2 / n, 711), cones(0))); };
+	const double whole = costOfSlab(12);
+	for (const int n : {14, 16, 20})
+		EXPECT_LT(costOfSlab(n), whole + 0.01) << n;
+}
+
 /// The linear problem is that of smooth surfaces; the flow's own distortion agrees with it where the mesh
 /// resolves the factor.
 TEST(PlacedCones, ChangeAreasAsExpected)
