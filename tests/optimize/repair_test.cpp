@@ -2,7 +2,6 @@
 // What the finish repairs.
 #include "flat_maps.h"
 
-#include <ricci/optimize/finish.h>
 #include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>

@@ -221,8 +221,7 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;
-	std::vector<std::string> notes;
-	const OpenedMesh opened = openMesh(mesh, notes);
+	const OpenedMesh opened = openMesh(mesh);
 	draw(flat.mesh, mesh.positions, out);
 	std::vector<char> reversed(mesh.triangles.size(), 0);
 	for (const Face f : opened.reversed.indices())

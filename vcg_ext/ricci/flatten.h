@@ -58,18 +58,6 @@ Parametrization flattenToDisk(
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween);
 
-/// The map that a component has, one chart in the component's numbers, as it is: no flow, no cones.
-/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
-/// \pre its coordinates are finite
-Parametrization givenMap(const Component& component, bool turns);
-
-/// The same where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
-/// \return none if the component has none, or one with flipped or overlapping faces
-std::optional<Parametrization> rightGivenMap(const Component& component);
-
-/// To the scale of least symmetric Dirichlet energy, if that is finite.
-void scaleForLeastEnergy(FlatMesh& mesh);
-
 /// The charts of a component, without overlap unless they are to be those of the flow: Automatic takes the flow's or,
 /// where that costs less, those of the surface unfolded between its creases. Where the component has a map that is
 /// right, it takes that or, where it costs less and is one chart without further seams, the flow's.

@@ -75,10 +75,10 @@ void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points
 	}
 }
 
-void FlowLog::add(const Target& target)
+void addNotes(const Target& target, Parametrization& part)
 {
 	logLines(target.notes);
-	notes.insert(notes.end(), target.notes.begin(), target.notes.end());
+	part.notes.insert(part.notes.end(), target.notes.begin(), target.notes.end());
 }
 
 VertexInput inputOf(const Component& component, const VertexInput& input, int vertexCount)
@@ -102,12 +102,12 @@ FlowResult runFlow(
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	FlowLog& log)
+	Parametrization& part)
 {
-	log.add(target);
+	addNotes(target, part);
 	advance(0.0, "Solving for the metric");
 	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
-	return runRicciFlow(surface, std::move(start), target, options, log.states);
+	return runRicciFlow(surface, std::move(start), target, options, part.report.flowStates);
 }
 
 void logFlow(const FlowResult& flow, const FlowOptions& options)
@@ -158,7 +158,7 @@ CutGraph cutDomain(
 			mirrored && isHardlyLonger(domain.surface, *mirrored, cut))
 			cut = *std::move(mirrored);
 	if (domain.holes > 0)
-		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cut);
+		dropSeamsToHoles(t, domain.onHole, cut);
 	return cut;
 }
 
@@ -197,10 +197,10 @@ InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow)
 	return report;
 }
 
-bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation output)
+bool isBent(const FlowResult& flow, OutputTriangulation output)
 {
 	return output == OutputTriangulation::KeepMesh &&
-		   (flow.flipCount() > 0 || flow.doubled || log.swaps > 0 || log.splits > 0);
+		   (flow.flipCount() > 0 || flow.doubled || flow.swaps > 0 || flow.splits > 0);
 }
 
 void logComponent(const Component& component, const SurfaceType& type)
@@ -210,15 +210,14 @@ void logComponent(const Component& component, const SurfaceType& type)
 		std::to_string(component.triangles.size()) + " faces: " + type.name() + ".");
 }
 
-Parametrization withoutMap(
+void describeByFlow(
 	const Component& component,
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	FlowLog log,
 	const CutGraph& cut,
-	double scale)
+	double scale,
+	Parametrization& part)
 {
-	Parametrization part;
 	const Target& target = flow.target;
 	for (const Vertex v : component.vertex.indices()) {
 		part.u.push_back(flow.u[v] + std::log(scale));
@@ -227,7 +226,6 @@ Parametrization withoutMap(
 	for (const Vertex v : cut.cones.indices())
 		if (cut.cones[v] && target.used == TargetUsed::PlacedCones)
 			part.placedCones.push_back(v.number());
-	part.notes = std::move(log.notes);
 	part.charts.emplace_back();
 	part.charts.back().isMirrored = cut.isMirrored;
 
@@ -238,25 +236,22 @@ Parametrization withoutMap(
 	report.genus = type.genus;
 	report.boundaryLoops = type.boundaryLoops;
 	report.cappedHoles = domain.holes;
-	report.iterations = log.roundingSteps + (log.states.empty() ? 0 : log.states.back().step);
-	report.flowStates = std::move(log.states);
+	report.iterations += report.flowStates.empty() ? 0 : report.flowStates.back().step;
 	report.maxCurvatureError = flow.residual;
 	report.residualFloor = flow.floor;
 	report.lengthened = flow.start.lengthened.largest;
 	report.flips = flow.flipCount();
-	report.edgeSwaps = log.swaps;
-	report.boundarySplits = log.splits;
+	report.edgeSwaps = flow.swaps;
+	report.boundarySplits = flow.splits;
 	report.brokenTriangles = flow.metric->brokenTriangles();
 	if (target.background == Background::EuclideanPlane)
 		report.targetUsed = target.used;
 	report.choice = target.choice;
 	report.expectedSpread = target.expectedSpread;
-	report.endedEarly = log.endedEarly;
 	report.cones = static_cast<int>(std::count(cut.cones.begin(), cut.cones.end(), 1));
 	report.seamEdges = cut.edgeCount;
 	for (const Edge e : cut.isCut.indices())
 		report.seamLength += cut.isCut[e] ? domain.surface.lengths[e] : 0.0;
-	return part;
 }
 
 } // namespace ricci

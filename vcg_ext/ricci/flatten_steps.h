@@ -11,35 +11,23 @@
 #include "mesh/component.h"
 #include "refinement/overlay_pieces.h"
 
-#include <string>
-#include <vector>
-
 namespace ricci {
 
-/// The flows of a component, those included whose metric was not taken.
-struct FlowLog
-{
-	std::vector<FlowState> states;
-	std::vector<std::string> notes; ///< of their targets
-	int roundingSteps = 0;          ///< of Newton's method, see makeSeamless()
-	int swaps = 0, splits = 0;      ///< paper 5.4
-	int endedEarly = 0;             ///< see Report
-
-	/// Takes down the notes of a target, and logs them.
-	void add(const Target& target);
-};
+/// Takes down the notes of a target, and logs them.
+void addNotes(const Target& target, Parametrization& part);
 
 /// The values of a surface of \p vertexCount vertices whose first ones are the component's.
 VertexInput inputOf(const Component& component, const VertexInput& input, int vertexCount);
 
 /// A flow of a component, first or again.
+/// \param part gets its states and the notes of its target, also where its metric is not taken
 /// \throw as runRicciFlow()
 FlowResult runFlow(
 	const EmbeddedSurface& surface,
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	FlowLog& log);
+	Parametrization& part);
 
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
@@ -83,7 +71,7 @@ InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow);
 
 /// Whether straight faces of the component may be flipped in the map although it is right: flips, swaps
 /// and splits bend their edges.
-bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation output);
+bool isBent(const FlowResult& flow, OutputTriangulation output);
 
 /// Says what the component is.
 void logComponent(const Component& component, const SurfaceType& type);
@@ -95,16 +83,16 @@ void describeByMap(const Component& component, Parametrization& map);
 /// Scales points and moves them from the frame of a rectangle to one along the axes, from the origin.
 void moveUpright(const OrientedRectangle& r, double scale, Array<Point2>& points);
 
-/// A component by itself, without its map: the values of its vertices, and what is known of its surface, its flow and
-/// its cut.
+/// Fills in what is known of a component without its map: the values of its vertices, its surface, its flow and its cut.
 /// \param scale lengths in the map over those of the flow's metric
-Parametrization withoutMap(
+/// \param part with what runFlow() has added
+void describeByFlow(
 	const Component& component,
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	FlowLog log,
 	const CutGraph& cut,
-	double scale);
+	double scale,
+	Parametrization& part);
 
 } // namespace ricci
 

@@ -72,8 +72,9 @@ Parametrization flattenToDisk(
 	const VertexInput values = inputOf(component, input, component.vertex.size());
 	const Target target =
 		chooseHyperbolicTarget(domain.surface.topology, options, values); // 5.2, 5.3
-	FlowLog log;
-	const FlowResult flow = runFlow(domain.solved(), std::move(start), target, options, log); // 4.2
+	Parametrization part;
+	const FlowResult flow =
+		runFlow(domain.solved(), std::move(start), target, options, part); // 4.2
 	logFlow(flow, options);
 
 	const int threads = threadsFor(domain.surface.triangulation.faceCount());
@@ -112,8 +113,8 @@ Parametrization flattenToDisk(
 	invariants.relationError = relationError;
 
 	advance(1.0, "Checking the result");
-	const bool mayFlip = isBent(flow, log, options.output);
-	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, 1.0);
+	const bool mayFlip = isBent(flow, options.output);
+	describeByFlow(component, domain, flow, cut, 1.0, part);
 	static_cast<InvariantReport&>(part.report) = std::move(invariants);
 	part.charts.front().group = std::move(group);
 	part.mesh = isRefined(options) ? std::move(layout.refinement)

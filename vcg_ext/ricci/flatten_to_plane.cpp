@@ -12,7 +12,6 @@
 #include "measure/distortion.h"
 #include "measure/invariants.h"
 #include "measure/map_check.h"
-#include "optimize/finish.h"
 #include "optimize/least_distortion.h"
 #include "optimize/repair.h"
 
@@ -43,7 +42,8 @@ constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 /// Whether cones and seams are to be mirrored: where they are chosen for the least cost alone, which tells what that costs.
 bool mayMirror(const Component& component, const TargetRequest& request)
 {
-	return request.measuresAreas && request.rounding == ConeRounding::Free &&
+	return request.goal.kind == ConeGoal::LeastCost && request.measuresAreas &&
+		   request.rounding == ConeRounding::Free &&
 		   (request.target == TargetCurvature::Automatic ||
 			request.target == TargetCurvature::PlacedCones) &&
 		   component.lengths.empty() && !component.hasSeam;
@@ -68,7 +68,8 @@ TargetRequest targetRequest(
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
-	request.mayMirror = mayMirror(component, request);
+	if (mayMirror(component, request))
+		request.goal.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }
 
@@ -84,25 +85,21 @@ CutGraph cutOpen(const FlowPlan& plan, VertexArray<char> cones, const Options& o
 }
 
 /// The flow with edge swaps (5.4), and the domain that it leaves.
-FlowResult
-flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& plan, FlowLog& log)
+FlowResult flowWithEdgeSwaps(
+	const Component& component, const Options& options, FlowPlan& plan, Parametrization& part)
 {
 	const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
 		const auto count = surface.positions.values().size(); // more where the boundary is split
 		plan.request.selected.resize(count, 0);
 		plan.request.targetCurvature.resize(count, 0.0);
 		Target target = chooseTarget(surface, start, plan.request);
-		if (log.states.empty())
-			log.add(target);
+		if (part.report.flowStates.empty())
+			addNotes(target, part);
 		return target;
 	};
 	advance(0.0, "Solving for the metric");
-	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
-	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, log.states);
-	plan.domain = std::move(swapped.domain);
-	log.swaps = swapped.swaps;
-	log.splits = swapped.splits;
-	return std::move(swapped.flow);
+	const Task ofFlow(kBeforeFlow, 1.0 - kAfterFlow);
+	return flowWithEdgeSwaps(component, options, choose, plan.domain, part.report.flowStates);
 }
 
 /// The promise of Target::expected: while a metric changes areas, or costs, more than its target was chosen for, runs
@@ -115,7 +112,7 @@ FlowResult keepAreas(
 	const TargetRequest& request,
 	const Options& options,
 	FlowResult best,
-	FlowLog& log)
+	Parametrization& part)
 {
 	std::unique_ptr<const FlowResult> last; // where it is not the best
 	const auto propose = [&]() -> std::optional<FlowResult> {
@@ -127,7 +124,7 @@ FlowResult keepAreas(
 			const auto target = targetToKeepAreas(surface, start, before, request);
 			if (!target)
 				return std::nullopt;
-			return runFlow(surface, std::move(start), *target, options, log);
+			return runFlow(surface, std::move(start), *target, options, part);
 		});
 		return next ? std::move(*next) : std::nullopt;
 	};
@@ -143,7 +140,7 @@ FlowResult keepAreas(
 	const bool isForCost = request.goal.kind == ConeGoal::LeastCost;
 	const int round = improve(isForCost ? 1 : kMaxRounds, kMaxVainRounds, propose, take);
 	if (!isForCost && round == kMaxRounds) {
-		++log.endedEarly;
+		++part.report.endedEarly;
 		logLine("The search for cones stopped at its limit of solves.");
 	}
 	if (round > 0) {
@@ -162,44 +159,17 @@ FlowResult makeSeamless(
 	const TargetRequest& request,
 	const Options& options,
 	FlowResult flow,
-	FlowLog& log)
+	Parametrization& part)
 {
 	if (options.method != Method::IntrinsicFlips)
 		return flow;
 	const FlowTo flowTo = [&](const Target& target) {
 		return attempt("the metric before it stays", [&] {
-			return runFlow(surface, initialPacking(surface, options), target, options, log);
+			return runFlow(surface, initialPacking(surface, options), target, options, part);
 		});
 	};
-	log.roundingSteps = makeSeamless(surface, request, options.epsilon, flowTo, flow);
+	part.report.iterations = makeSeamless(surface, request, options.epsilon, flowTo, flow);
 	return flow;
-}
-
-/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
-/// \param area of \p layout
-InvariantReport conformalInvariants(
-	const EmbeddedSurface& surface,
-	const PlanarLayout& layout,
-	const FlowResult& flow,
-	const CutGraph& cut,
-	double area)
-{
-	InvariantReport report;
-	const Triangulation& t = surface.triangulation;
-	const SurfaceType& type = surface.topology.type;
-	const Target& target = flow.target;
-	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (type.isTorus() && flat) {
-		const std::complex<double> tau = torusModulus(t, layout, cut);
-		report.torusTauRe = tau.real();
-		report.torusTauIm = tau.imag();
-	}
-	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount > 0)
-		report.annulusModulus = annulusModulus(t, layout, cut, area);
-	if (target.corners)
-		report.rectangleAspect = rectangleAspect(t, layout, *target.corners);
-	return report;
 }
 
 /// A component laid out in the plane.
@@ -209,8 +179,6 @@ struct PlaneMap
 	double scale = 1.0; ///< lengths in it over those of the flow's metric
 	InvariantReport invariants;
 	FlatMesh refinement; ///< where that is given back
-	FinishCounts finished;
-	bool hasFreeSeams = false; ///< the finish has let seams go
 };
 
 /// Lays the component out in the plane, upright and with its area unless the boundary keeps its metric.
@@ -229,8 +197,7 @@ PlaneMap layOut(
 	if (domain.surface.topology.type.boundaryLoops - domain.holes > 1) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = cut.edgeCount;
-		dropSeamsToHoles(
-			t, domain.surface.lengths, loopsThatClose(t, layout.corners, cut.isCut), cut);
+		dropSeamsToHoles(t, loopsThatClose(t, layout.corners, cut.isCut), cut);
 		if (cut.edgeCount < edges)
 			layout =
 				layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
@@ -275,46 +242,51 @@ Finish finishOf(const FlowDomain& domain, const Options& options, const Target& 
 /// The promise of Target::expected once more: where straight triangles cost more than their metric, lowers the energy,
 /// at the cost of angles, with seams as they are. That lowers the objective of 22 of 79 meshes, most of them CAD, by 1 % in
 /// the mean, and raises that of two.
-void keepPromise(const Target& target, const VertexArray<char>& cones, PlaneMap& map)
+void keepPromise(
+	const Target& target, const VertexArray<char>& cones, FlatMesh& mesh, Report& report)
 {
-	const double broken = costOf(map.mesh, 0.0).energy;
+	const double broken = costOf(mesh, 0.0).energy;
 	if (!target.expected || broken <= target.expected->energy + kBrokenPromise)
 		return;
-	const Array<Point2> before = map.mesh.place;
-	const bool endedEarly =
-		leastStretch(map.mesh, joinedPoints(map.mesh, cones, target.hasFixed()));
-	const double kept = costOf(map.mesh, 0.0).energy;
+	const Array<Point2> before = mesh.place;
+	const bool endedEarly = leastStretch(mesh, joinedPoints(mesh, cones, target.hasFixed()));
+	const double kept = costOf(mesh, 0.0).energy;
 	if (!(kept < broken)) { // because of triangles that stay flipped
-		map.mesh.place = before;
+		mesh.place = before;
 		return;
 	}
-	map.finished.endedEarly += endedEarly;
+	report.endedEarly += endedEarly;
 	logLine(
 		"Straight faces have the energy " + numberText(broken, 3) + ", not " +
 		numberText(target.expected->energy, 3) + ": they are moved, at the cost of angles, to " +
 		numberText(kept, 3) + (endedEarly ? ", where the finish stopped at its step limit." : "."));
 }
 
-/// The finish of what is given back. The invariants are those of the flow's own layout.
-void finish(
+/// The finish of what is given back, if it is made of the component's own faces. The invariants are those of the flow's
+/// own layout.
+/// \return whether it has let seams go
+bool finish(
 	const FlowDomain& domain,
 	const Options& options,
 	const Target& target,
 	const VertexArray<char>& cones,
-	PlaneMap& map)
+	FlatMesh& mesh,
+	Report& report)
 {
 	if (!isFinished(options) || isRefined(options))
-		return; // the refinement is exact
+		return false; // the refinement is exact
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(domain, options, target);
-	const Array<Point2> before = map.mesh.place;
-	map.finished = finishInPlane(
-		map.mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
-	map.hasFreeSeams = finish == Finish::LeastStretch;
+	const Array<Point2> before = mesh.place;
+	const FinishCounts counts =
+		finishInPlane(mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
+	report.finishMoved = counts.moved;
+	report.endedEarly += counts.endedEarly;
 	if (finish == Finish::LeastDistortion && coneGoal(options.cones).kind == ConeGoal::LeastCost)
-		keepPromise(target, cones, map);
-	if (map.mesh.place != before) // its border may have moved
-		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
+		keepPromise(target, cones, mesh, report);
+	if (mesh.place != before) // its border may have moved
+		moveUpright(minAreaRectangle(mesh.place.values()), 1.0, mesh.place);
+	return finish == Finish::LeastStretch;
 }
 
 /// How the lengths of a free boundary compare in the map and on the mesh.
@@ -357,8 +329,6 @@ void completePlan(const Options& options, FlowPlan& plan)
 	if (options.method == Method::EdgeSwaps)
 		return;
 	advance(0.0, "Choosing the target");
-	if (plan.request.mayMirror && plan.request.goal.kind == ConeGoal::LeastCost)
-		plan.request.goal.mirror = findMirror(plan.domain.surface, plan.domain.onHole);
 	plan.target = chooseTarget(plan.domain.solved(), plan.start, plan.request); // 5.2, 5.3
 }
 
@@ -366,22 +336,22 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 {
 	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
 	const FlowDomain& domain = plan.domain;
-	FlowLog log;
+	Parametrization part;
 	FlowResult flow;
 	CutGraph cut;
 	if (options.method == Method::EdgeSwaps)
-		flow = flowWithEdgeSwaps(component, options, plan, log); // 5.4
+		flow = flowWithEdgeSwaps(component, options, plan, part); // 5.4
 	else
 		besides(
 			threads,
 			[&] { // 4.2
-				flow = runFlow(domain.solved(), std::move(plan.start), plan.target, options, log);
+				flow = runFlow(domain.solved(), std::move(plan.start), plan.target, options, part);
 			},
 			[&] { // 4.3
 				cut = cutOpen(plan, conesOf(domain.surface, plan.target, domain.onHole), options);
 			});
-	flow = keepAreas(domain.solved(), plan.request, options, std::move(flow), log);
-	flow = makeSeamless(domain.solved(), plan.request, options, std::move(flow), log);
+	flow = keepAreas(domain.solved(), plan.request, options, std::move(flow), part);
+	flow = makeSeamless(domain.solved(), plan.request, options, std::move(flow), part);
 	logFlow(flow, options);
 	if (auto cones = conesOf(domain.surface, flow.target, domain.onHole); cones != cut.cones)
 		cut = cutOpen(plan, std::move(cones), options);
@@ -398,21 +368,20 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 			requireMetric(flow, domain.solved().topology.boundary);
 		});
 	// Not beside the periods, which take as much memory.
-	finish(domain, options, flow.target, cut.cones, map);
-	const bool mayFlip = map.finished.moved > 0 || isBent(flow, log, options.output);
-	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
+	const bool hasFreeSeams =
+		finish(domain, options, flow.target, cut.cones, map.mesh, part.report);
+	const bool mayFlip = part.report.finishMoved > 0 || isBent(flow, options.output);
+	describeByFlow(component, domain, flow, cut, map.scale, part);
 	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);
 	part.report.periodMatrix = std::move(periods.periodMatrix);
 	part.report.periodError = periods.periodError;
-	part.report.finishMoved = map.finished.moved;
-	part.report.endedEarly += map.finished.endedEarly;
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
 		part.report.holonomyError = quarterTurnError(domain, map.mesh, cut);
 	if (flow.target.hasFixed())
 		measureBoundary(map.mesh, part.report);
 	advance(1.0, "Checking the result");
 	part.mesh = std::move(isRefined(options) ? map.refinement : map.mesh);
-	requireMap(part.mesh, flow, mayFlip, !map.hasFreeSeams);
+	requireMap(part.mesh, flow, mayFlip, !hasFreeSeams);
 	return part;
 }
 

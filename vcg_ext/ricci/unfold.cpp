@@ -49,8 +49,7 @@ std::vector<Component> pieces(const Component& component, const Creases& creases
 {
 	SurfaceMesh surface{component.positions.values(), component.triangles, component.diagonal};
 	surface.seam = creases.sides;
-	std::vector<std::string> notes; // which speak of seams that nobody has asked for
-	const OpenedMesh opened = openMesh(surface, notes);
+	const OpenedMesh opened = openMesh(surface);
 	if (!opened.degenerate.empty())
 		return {};
 	std::vector<Component> pieces = splitIntoComponents(opened);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "finish.h"
+#include "repair.h"
 
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../flow/target.h"
 #include "least_distortion.h"
-#include "repair.h"
 
 #include <cmath>
 #include <string>
