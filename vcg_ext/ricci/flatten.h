@@ -35,9 +35,8 @@ void completePlan(const Options& options, FlowPlan& plan);
 /// \throw what the stages throw
 Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options);
 
-/// The same with the target that is chosen without an alternative.
-Parametrization
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
+/// The same with the target that is chosen without an alternative, and no values at the vertices.
+Parametrization flattenToPlane(const Component& component, const Options& options);
 
 /// The same in the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.

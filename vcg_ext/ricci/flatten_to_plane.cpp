@@ -278,10 +278,10 @@ bool finish(
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(domain, options, target);
 	const Array<Point2> before = mesh.place;
-	const FinishCounts counts =
+	const Repair result =
 		finishInPlane(mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
-	report.finishMoved = counts.moved;
-	report.endedEarly += counts.endedEarly;
+	report.finishMoved = result.movedCount();
+	report.endedEarly += result.endedEarly;
 	if (finish == Finish::LeastDistortion && coneGoal(options.cones).kind == ConeGoal::LeastCost)
 		keepPromise(target, cones, mesh, report);
 	if (mesh.place != before) // its border may have moved
@@ -385,10 +385,9 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 	return part;
 }
 
-Parametrization
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
+Parametrization flattenToPlane(const Component& component, const Options& options)
 {
-	FlowPlan plan = startOfPlan(component, input, options);
+	FlowPlan plan = startOfPlan(component, VertexInput(), options);
 	completePlan(options, plan);
 	return flattenToPlane(component, std::move(plan), options);
 }

@@ -322,7 +322,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	checkOptions(flow);
 	const Parametrization flat = [&] {
 		const Task quiet(0.0, kMapped, true); // the log would speak of the punctured surface
-		return flattenToPlane(disk, VertexInput(), flow);
+		return flattenToPlane(disk, flow);
 	}();
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
 	for (const int f : flat.mesh.points.indices())

@@ -72,9 +72,7 @@ mapsOf(const std::vector<Component>& pieces, const Component& component, const O
 	tasksInParallel(
 		static_cast<int>(pieces.size()),
 		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
-		[&](int i) {
-			flat[positionOf(i)] = flattenToPlane(pieces[positionOf(i)], VertexInput(), options);
-		});
+		[&](int i) { flat[positionOf(i)] = flattenToPlane(pieces[positionOf(i)], options); });
 	for (std::size_t i = 0; i < pieces.size(); ++i)
 		append(pieces[i], std::move(flat[i]), map);
 	return map;

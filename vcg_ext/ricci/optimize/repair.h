@@ -67,9 +67,10 @@ Untangled ease(const PatchProblem& problem, const Patch& patch, int maxSteps);
 /// What repair() has done.
 struct Repair
 {
-	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
-	int bad = 0;       ///< triangles that were not valid before
-	int left = 0;      ///< and after
+	Array<char> moved;  ///< [point] 1 where the repair moved it; empty where nothing was to be done
+	int bad = 0;        ///< triangles that were not valid before
+	int left = 0;       ///< and after
+	int endedEarly = 0; ///< of finishInPlane(): parts that the bound on their work has ended
 
 	int movedCount() const;
 	/// Takes over what a second repair of the same mesh has done.
@@ -139,13 +140,6 @@ Repair repairInStages(
 Repair
 repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
 
-/// What the finish has done to the map of one component.
-struct FinishCounts
-{
-	int moved = 0;      ///< points that the repair moved
-	int endedEarly = 0; ///< parts of the finish that the bound on their work has ended
-};
-
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of
 /// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
 /// least stretch.
@@ -153,8 +147,9 @@ struct FinishCounts
 /// \param freeBoundary whether the curvature of the boundary is free
 /// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
 /// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
+/// \return what the repair has done
 /// \pre finish is not Finish::None
-FinishCounts finishInPlane(
+Repair finishInPlane(
 	FlatMesh& flat,
 	const VertexArray<char>& cones,
 	bool freeBoundary,
