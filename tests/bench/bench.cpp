@@ -310,8 +310,7 @@ void measure(
 {
 	FlowDomain domain;
 	const auto setUp = [&] {
-		std::vector<std::string> notes;
-		const std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
+		const std::vector<Component> components = splitIntoComponents(openMesh(mesh));
 		domain = flowDomain(components.front(), Holes::Boundaries);
 	};
 	row.read += timeOf(setUp);

@@ -6,6 +6,7 @@
 #include <ricci/base/tolerances.h>
 #include <ricci/charts/outline_packing.h>
 #include <ricci/charts/pack.h>
+#include <ricci/charts/pack_items.h>
 
 #include <gtest/gtest.h>
 

@@ -110,8 +110,7 @@ struct Reading
 				if (!seams.empty())
 					mesh.seam.push_back(seams[f]);
 			}
-		std::vector<std::string> notes;
-		opened = openMesh(mesh, notes, cut, FlowOptions().join, sharpAngle);
+		opened = openMesh(mesh, cut, FlowOptions().join, sharpAngle);
 		for (std::size_t f = 0; f < opened.face.size(); ++f)
 			wanted[inVcg(opened.face[f])] = opened.reversed[Face(f)] ? -1 : 1;
 		for (const int f : opened.degenerate)

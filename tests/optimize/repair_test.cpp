@@ -2,7 +2,6 @@
 // What the finish repairs.
 #include "flat_maps.h"
 
-#include <ricci/optimize/finish.h>
 #include <ricci/optimize/repair.h>
 
 #include <gtest/gtest.h>
@@ -112,12 +111,6 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 	EXPECT_GT(none.left, all.left);
 }
 
-FinishCounts finishSquare(FlatMesh& flat, bool freeBoundary, Finish finish)
-{
-	const VertexArray<char> none(flat.vertexCount(), 0);
-	return finishInPlane(flat, none, freeBoundary, {}, finish, true);
-}
-
 /// Energy at a scale that does not change, and a twentieth of the length of the sides between triangles that are
 /// counter-clockwise and those that are not, which are cut off.
 double costWithCuts(const FlatMesh& flat)
@@ -163,11 +156,11 @@ TEST(FinishInPlane, RepairsWhatIsCheaperThanACut)
 		FlatMesh kept = flat;
 		const double before = costWithCuts(flat);
 		const int flipped = notCounterClockwise(flat);
-		finishSquare(flat, false, Finish::Repair);
+		const VertexArray<char> none(flat.vertexCount(), 0);
+		finishInPlane(flat, none, false, {}, Finish::Repair, true);
 		mended += flipped - notCounterClockwise(flat);
 		left += notCounterClockwise(flat);
 		EXPECT_LE(costWithCuts(flat), before * (1.0 + 1e-9));
-		const VertexArray<char> none(kept.vertexCount(), 0);
 		finishInPlane(kept, none, false, {}, Finish::Repair, false);
 		EXPECT_LE(notCounterClockwise(kept), movesBorder ? notCounterClockwise(flat) : 0);
 	}

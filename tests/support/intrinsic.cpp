@@ -41,8 +41,7 @@ Triangulation glued(const SurfaceMesh& mesh)
 
 OpenedMesh opened(const SurfaceMesh& mesh)
 {
-	std::vector<std::string> notes;
-	return openMesh(mesh, notes);
+	return openMesh(mesh);
 }
 
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)

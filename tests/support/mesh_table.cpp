@@ -181,8 +181,7 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
-	std::vector<std::string> notes;
-	const OpenedMesh opened = openMesh(mesh, notes);
+	const OpenedMesh opened = openMesh(mesh);
 	draw(flat.mesh, mesh.positions, out);
 	std::vector<char> reversed(mesh.triangles.size(), 0);
 	for (const Face f : opened.reversed.indices())

@@ -35,9 +35,8 @@ void completePlan(const Options& options, FlowPlan& plan);
 /// \throw what the stages throw
 Parametrization flattenToPlane(const Component& component, FlowPlan plan, const Options& options);
 
-/// The same with the target that is chosen without an alternative.
-Parametrization
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
+/// The same with the target that is chosen without an alternative, and no values at the vertices.
+Parametrization flattenToPlane(const Component& component, const Options& options);
 
 /// The same in the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.
@@ -57,18 +56,6 @@ Parametrization flattenToDisk(
 /// \throw what the stages throw
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween);
-
-/// The map that a component has, one chart in the component's numbers, as it is: no flow, no cones.
-/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
-/// \pre its coordinates are finite
-Parametrization givenMap(const Component& component, bool turns);
-
-/// The same where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
-/// \return none if the component has none, or one with flipped or overlapping faces
-std::optional<Parametrization> rightGivenMap(const Component& component);
-
-/// To the scale of least symmetric Dirichlet energy, if that is finite.
-void scaleForLeastEnergy(FlatMesh& mesh);
 
 /// The charts of a component, without overlap unless they are to be those of the flow: Automatic takes the flow's or,
 /// where that costs less, those of the surface unfolded between its creases. Where the component has a map that is

@@ -158,7 +158,7 @@ CutGraph cutDomain(
 			mirrored && isHardlyLonger(domain.surface, *mirrored, cut))
 			cut = *std::move(mirrored);
 	if (domain.holes > 0)
-		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cut);
+		dropSeamsToHoles(t, domain.onHole, cut);
 	return cut;
 }
 
@@ -197,10 +197,10 @@ InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow)
 	return report;
 }
 
-bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation output)
+bool isBent(const FlowResult& flow, OutputTriangulation output)
 {
 	return output == OutputTriangulation::KeepMesh &&
-		   (flow.flipCount() > 0 || flow.doubled || log.swaps > 0 || log.splits > 0);
+		   (flow.flipCount() > 0 || flow.doubled || flow.swaps > 0 || flow.splits > 0);
 }
 
 void logComponent(const Component& component, const SurfaceType& type)
@@ -244,8 +244,8 @@ Parametrization withoutMap(
 	report.residualFloor = flow.floor;
 	report.lengthened = flow.start.lengthened.largest;
 	report.flips = flow.flipCount();
-	report.edgeSwaps = log.swaps;
-	report.boundarySplits = log.splits;
+	report.edgeSwaps = flow.swaps;
+	report.boundarySplits = flow.splits;
 	report.brokenTriangles = flow.metric->brokenTriangles();
 	if (target.background == Background::EuclideanPlane)
 		report.targetUsed = target.used;

@@ -22,7 +22,6 @@ struct FlowLog
 	std::vector<FlowState> states;
 	std::vector<std::string> notes; ///< of their targets
 	int roundingSteps = 0;          ///< of Newton's method, see makeSeamless()
-	int swaps = 0, splits = 0;      ///< paper 5.4
 	int endedEarly = 0;             ///< see Report
 
 	/// Takes down the notes of a target, and logs them.
@@ -83,7 +82,7 @@ InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow);
 
 /// Whether straight faces of the component may be flipped in the map although it is right: flips, swaps
 /// and splits bend their edges.
-bool isBent(const FlowResult& flow, const FlowLog& log, OutputTriangulation output);
+bool isBent(const FlowResult& flow, OutputTriangulation output);
 
 /// Says what the component is.
 void logComponent(const Component& component, const SurfaceType& type);

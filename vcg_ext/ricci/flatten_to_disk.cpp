@@ -112,7 +112,7 @@ Parametrization flattenToDisk(
 	invariants.relationError = relationError;
 
 	advance(1.0, "Checking the result");
-	const bool mayFlip = isBent(flow, log, options.output);
+	const bool mayFlip = isBent(flow, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, 1.0);
 	static_cast<InvariantReport&>(part.report) = std::move(invariants);
 	part.charts.front().group = std::move(group);

@@ -12,7 +12,6 @@
 #include "measure/distortion.h"
 #include "measure/invariants.h"
 #include "measure/map_check.h"
-#include "optimize/finish.h"
 #include "optimize/least_distortion.h"
 #include "optimize/repair.h"
 
@@ -43,7 +42,8 @@ constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 /// Whether cones and seams are to be mirrored: where they are chosen for the least cost alone, which tells what that costs.
 bool mayMirror(const Component& component, const TargetRequest& request)
 {
-	return request.measuresAreas && request.rounding == ConeRounding::Free &&
+	return request.goal.kind == ConeGoal::LeastCost && request.measuresAreas &&
+		   request.rounding == ConeRounding::Free &&
 		   (request.target == TargetCurvature::Automatic ||
 			request.target == TargetCurvature::PlacedCones) &&
 		   component.lengths.empty() && !component.hasSeam;
@@ -68,7 +68,8 @@ TargetRequest targetRequest(
 		options.method == Method::IntrinsicFlips && !options.cones.onlyWhereNeeded;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
-	request.mayMirror = mayMirror(component, request);
+	if (mayMirror(component, request))
+		request.goal.mirror = findMirror(domain.surface, domain.onHole);
 	return request;
 }
 
@@ -98,11 +99,7 @@ flowWithEdgeSwaps(const Component& component, const Options& options, FlowPlan& 
 	};
 	advance(0.0, "Solving for the metric");
 	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
-	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, log.states);
-	plan.domain = std::move(swapped.domain);
-	log.swaps = swapped.swaps;
-	log.splits = swapped.splits;
-	return std::move(swapped.flow);
+	return flowWithEdgeSwaps(component, options, choose, plan.domain, log.states);
 }
 
 /// The promise of Target::expected: while a metric changes areas, or costs, more than its target was chosen for, runs
@@ -175,33 +172,6 @@ FlowResult makeSeamless(
 	return flow;
 }
 
-/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
-/// \param area of \p layout
-InvariantReport conformalInvariants(
-	const EmbeddedSurface& surface,
-	const PlanarLayout& layout,
-	const FlowResult& flow,
-	const CutGraph& cut,
-	double area)
-{
-	InvariantReport report;
-	const Triangulation& t = surface.triangulation;
-	const SurfaceType& type = surface.topology.type;
-	const Target& target = flow.target;
-	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (type.isTorus() && flat) {
-		const std::complex<double> tau = torusModulus(t, layout, cut);
-		report.torusTauRe = tau.real();
-		report.torusTauIm = tau.imag();
-	}
-	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount > 0)
-		report.annulusModulus = annulusModulus(t, layout, cut, area);
-	if (target.corners)
-		report.rectangleAspect = rectangleAspect(t, layout, *target.corners);
-	return report;
-}
-
 /// A component laid out in the plane.
 struct PlaneMap
 {
@@ -209,7 +179,7 @@ struct PlaneMap
 	double scale = 1.0; ///< lengths in it over those of the flow's metric
 	InvariantReport invariants;
 	FlatMesh refinement; ///< where that is given back
-	FinishCounts finished;
+	Repair finished;
 	bool hasFreeSeams = false; ///< the finish has let seams go
 };
 
@@ -229,8 +199,7 @@ PlaneMap layOut(
 	if (domain.surface.topology.type.boundaryLoops - domain.holes > 1) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = cut.edgeCount;
-		dropSeamsToHoles(
-			t, domain.surface.lengths, loopsThatClose(t, layout.corners, cut.isCut), cut);
+		dropSeamsToHoles(t, loopsThatClose(t, layout.corners, cut.isCut), cut);
 		if (cut.edgeCount < edges)
 			layout =
 				layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
@@ -357,8 +326,6 @@ void completePlan(const Options& options, FlowPlan& plan)
 	if (options.method == Method::EdgeSwaps)
 		return;
 	advance(0.0, "Choosing the target");
-	if (plan.request.mayMirror && plan.request.goal.kind == ConeGoal::LeastCost)
-		plan.request.goal.mirror = findMirror(plan.domain.surface, plan.domain.onHole);
 	plan.target = chooseTarget(plan.domain.solved(), plan.start, plan.request); // 5.2, 5.3
 }
 
@@ -399,12 +366,12 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 		});
 	// Not beside the periods, which take as much memory.
 	finish(domain, options, flow.target, cut.cones, map);
-	const bool mayFlip = map.finished.moved > 0 || isBent(flow, log, options.output);
+	const bool mayFlip = map.finished.movedCount() > 0 || isBent(flow, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
 	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);
 	part.report.periodMatrix = std::move(periods.periodMatrix);
 	part.report.periodError = periods.periodError;
-	part.report.finishMoved = map.finished.moved;
+	part.report.finishMoved = map.finished.movedCount();
 	part.report.endedEarly += map.finished.endedEarly;
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
 		part.report.holonomyError = quarterTurnError(domain, map.mesh, cut);
@@ -416,10 +383,9 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 	return part;
 }
 
-Parametrization
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
+Parametrization flattenToPlane(const Component& component, const Options& options)
 {
-	FlowPlan plan = startOfPlan(component, input, options);
+	FlowPlan plan = startOfPlan(component, VertexInput(), options);
 	completePlan(options, plan);
 	return flattenToPlane(component, std::move(plan), options);
 }

@@ -5,9 +5,12 @@
 #include "base/tolerances.h"
 #include "charts/separate_charts.h"
 #include "flatten.h"
+#include "flatten_steps.h"
 #include "measure/distortion.h"
+#include "measure/map_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -181,6 +184,71 @@ FlowPlan withCheaperHoles(
 	return capped && capped->target.expected && capped->target.expected->total() < cost
 			   ? *std::move(capped)
 			   : std::move(plan);
+}
+
+/// The coordinates of the component as a flat mesh. Sides of edges at which they do not jump, which may differ by
+/// kSameCoordinate, get the same ends.
+FlatMesh meshOf(const Component& component)
+{
+	const Array<Triangle2> plane(component.map);
+	FlatMesh mesh =
+		flatMeshOf(Array<Triangle>(component.triangles), plane, component.positions.values());
+	for (const Face f : component.face.indices())
+		mesh.lengths[f.number()] = component.sides(f);
+	mesh.isDiagonal = sidesOf(component.diagonal);
+	numberPoints([&](Corner c) { return plane[c]; }, [](Corner, Corner) { return true; }, mesh);
+	return mesh;
+}
+
+Parametrization chartOf(const Component& component, bool turns, FlatMesh mesh)
+{
+	Parametrization map;
+	map.mesh = std::move(mesh);
+	if (turns)
+		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
+	map.charts.resize(1);
+	map.u.assign(component.positions.values().size(), 0.0);
+	map.report.targetUsed = TargetUsed::GivenMap;
+	describeByMap(component, map);
+	return map;
+}
+
+/// To the scale of least symmetric Dirichlet energy, if that is finite.
+void scaleForLeastEnergy(FlatMesh& mesh)
+{
+	const auto [forth, back, area] = stretchIntegrals(mesh);
+	if (forth > 0.0 && back < kInfinity)
+		for (Point2& p : mesh.place)
+			p *= std::pow(back / forth, 0.25);
+}
+
+/// The map that a component has, one chart in the component's numbers, as it is: no flow, no cones.
+/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
+/// \pre its coordinates are finite
+Parametrization givenMap(const Component& component, bool turns)
+{
+	return chartOf(component, turns, meshOf(component));
+}
+
+/// The same where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
+/// \return none if the component has none, or one with flipped or overlapping faces
+std::optional<Parametrization> rightGivenMap(const Component& component)
+{
+	const auto isFinite = [](const Triangle2& t) { return std::isfinite(doubledArea(t)); };
+	if (component.map.empty() || !std::all_of(component.map.begin(), component.map.end(), isFinite))
+		return std::nullopt;
+	FlatMesh mesh = meshOf(component);
+	double doubled = 0.0;
+	for (const Triangle2& t : mesh.corners())
+		doubled += doubledArea(t);
+	if (doubled < 0.0)
+		for (Point2& p : mesh.place)
+			p[0] = -p[0];
+	if (countFlipped(mesh) + countFlippedByRounding(mesh) > 0 || overlapsInFloats(mesh)[0] > 0)
+		return std::nullopt;
+	Parametrization map = chartOf(component, true, std::move(mesh));
+	scaleForLeastEnergy(map.mesh);
+	return map;
 }
 
 /// The map that a component has, or that of the flow if it costs less and needs no seam.

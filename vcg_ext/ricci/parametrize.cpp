@@ -108,6 +108,14 @@ void note(std::string sentence, Parametrization& map)
 	logLine(map.notes.back());
 }
 
+/// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
+ChartTurns chartTurns(const Options& options)
+{
+	return options.target == TargetCurvature::Rectangle           ? ChartTurns::None
+		   : options.cones.rounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
+																  : ChartTurns::Free;
+}
+
 /// Maps the components that have no hyperbolic metric to the unit square.
 Parametrization mapBeside(
 	const WholeMap& whole, const std::vector<Component>& components, const FlowOptions& options)
@@ -305,13 +313,6 @@ void checkOptions(const HyperbolicOptions& options)
 	if (options.method == Method::EdgeSwaps || options.method == Method::Thurston)
 		throw InvalidOption(InvalidOption::HyperbolicMethod);
 	checkFlowOptions(options);
-}
-
-ChartTurns chartTurns(const Options& options)
-{
-	return options.target == TargetCurvature::Rectangle           ? ChartTurns::None
-		   : options.cones.rounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
-																  : ChartTurns::Free;
 }
 
 WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)

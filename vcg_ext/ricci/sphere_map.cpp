@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sphere_map.h"
-#include "base/task.h"
 
 #include "base/crew.h"
 #include "base/numbers.h"
+#include "base/task.h"
 #include "base/tolerances.h"
 #include "error.h"
+#include "flatten.h"
 #include "measure/distortion.h"
 #include "measure/map_check.h"
 #include "mesh/component.h"
 #include "mesh/triangulation.h"
 #include "numerics/moebius_balancing.h"
-#include "whole_map.h"
+#include "parametrize.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -125,7 +126,6 @@ SurfaceMesh punctured(const Component& c, Vertex pole)
 {
 	const Vector centre = vec(c.positions[pole]);
 	SurfaceMesh disk;
-	disk.absent = 1;
 	double radius = 0.0, count = 0.0;
 	for (const Triangle& t : c.triangles) {
 		if (std::find(t.begin(), t.end(), pole.number()) == t.end()) {
@@ -303,8 +303,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	const Crew crew;
 	if (!mesh.lengths.empty())
 		throw InvalidOption(InvalidOption::WithoutPositions);
-	std::vector<std::string> notes;
-	const OpenedMesh opened = openMesh(mesh, notes, OneSidedCut::Shortest, options.join);
+	const OpenedMesh opened = openMesh(mesh, OneSidedCut::Shortest, options.join);
 	const std::vector<Component> components = splitIntoComponents(opened);
 	const Component& c = components.front();
 	if (components.size() > 1)
@@ -314,21 +313,21 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 		throw InvalidOption(InvalidOption::NotASphere, TargetCurvature::Automatic, type);
 
 	const Vertex pole = choosePole(c);
-	const SurfaceMesh disk = punctured(c, pole);
+	const Component disk = splitIntoComponents(openMesh(punctured(c, pole))).front();
+	requireMemory(disk.triangles.size(), disk.triangles.size(), false);
 	Options flow;
 	flow.epsilon = options.epsilon;
-	flow.join = JoinSplitVertices::Never;
 	flow.cones.onlyWhereNeeded = true;
 	flow.finish = Finish::None;
-	flow.charts = Charts::OfTheFlow;
+	checkOptions(flow);
 	const Parametrization flat = [&] {
-		const Task quiet(0.0, 1.0, true); // the log would speak of the punctured surface
-		return chartsInPlane(disk, {}, flow).map;
+		const Task quiet(0.0, kMapped, true); // the log would speak of the punctured surface
+		return flattenToPlane(disk, flow);
 	}();
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
 	for (const int f : flat.mesh.points.indices())
 		for (const Corner corner : cornersOf(f))
-			plane[Vertex(flat.mesh.vertices[corner])] = flat.mesh.at(corner);
+			plane[Vertex(disk.vertex[Vertex(flat.mesh.vertices[corner])])] = flat.mesh.at(corner);
 
 	VertexArray<double> weights(c.positions.size(), 0.0);
 	const std::vector<double> areas = triangleAreas(c.positions.values(), c.triangles, {});

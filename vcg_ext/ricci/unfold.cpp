@@ -49,8 +49,7 @@ std::vector<Component> pieces(const Component& component, const Creases& creases
 {
 	SurfaceMesh surface{component.positions.values(), component.triangles, component.diagonal};
 	surface.seam = creases.sides;
-	std::vector<std::string> notes; // which speak of seams that nobody has asked for
-	const OpenedMesh opened = openMesh(surface, notes);
+	const OpenedMesh opened = openMesh(surface);
 	if (!opened.degenerate.empty())
 		return {};
 	std::vector<Component> pieces = splitIntoComponents(opened);
@@ -73,9 +72,7 @@ mapsOf(const std::vector<Component>& pieces, const Component& component, const O
 	tasksInParallel(
 		static_cast<int>(pieces.size()),
 		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
-		[&](int i) {
-			flat[positionOf(i)] = flattenToPlane(pieces[positionOf(i)], VertexInput(), options);
-		});
+		[&](int i) { flat[positionOf(i)] = flattenToPlane(pieces[positionOf(i)], options); });
 	for (std::size_t i = 0; i < pieces.size(); ++i)
 		append(pieces[i], std::move(flat[i]), map);
 	return map;

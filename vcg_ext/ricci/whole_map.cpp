@@ -215,7 +215,7 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 	advance(0.0, "Checking the mesh");
 	WholeMap whole;
 	Parametrization& map = whole.map;
-	whole.opened = openMesh(mesh, map.notes, cut, options.join, options.sharpAngle);
+	whole.opened = openMesh(mesh, cut, options.join, options.sharpAngle);
 	const OpenedMesh& opened = whole.opened;
 	whole.components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
@@ -227,6 +227,7 @@ open(const SurfaceMesh& mesh, const VertexInput& input, const FlowOptions& optio
 		largest,
 		opened.mesh.triangles.size(),
 		options.output == OutputTriangulation::CommonRefinement);
+	map.notes = openingNotes(mesh, opened);
 	logLines(map.notes);
 	whole.values = input;
 	for (std::size_t v = 0; v < opened.joined.size() && !input.selected.empty(); ++v)

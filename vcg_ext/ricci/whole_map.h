@@ -14,9 +14,6 @@
 
 namespace ricci {
 
-/// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
-ChartTurns chartTurns(const Options& options);
-
 /// A mesh as it is opened, and a map that has no component yet: appendComponents() gives its arrays their sizes, and its
 /// mesh the vertices of the opened one.
 struct WholeMap

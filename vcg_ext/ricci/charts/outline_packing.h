@@ -25,14 +25,6 @@ inline double roundedShare(double x, double whole)
 /// The border of a chart: straight sides from one point to the next, the chart on the left of each.
 using Outline = std::vector<std::array<Point2, 2>>;
 
-/// The sides of a chart's triangles, each taken counter-clockwise, except for two that are joined and run
-/// opposite ways. A point off them is covered by as many triangles as they go round it.
-Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
-
-/// The turn that lays a chart along the axes whose outline runs in two perpendicular directions mostly: more than half
-/// its length, to a degree. Else 0.
-std::complex<double> uprightTurn(const Outline& outline);
-
 /// Cells along a side of the square in which packOutlines() first places so many outlines.
 int coarseCells(std::size_t outlines);
 

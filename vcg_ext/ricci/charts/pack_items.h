@@ -19,6 +19,14 @@ namespace ricci {
 /// no width or no height.
 std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding);
 
+/// The sides of a chart's triangles, each taken counter-clockwise, except for two that are joined and run
+/// opposite ways. A point off them is covered by as many triangles as they go round it.
+Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
+
+/// The turn that lays a chart along the axes whose outline runs in two perpendicular directions mostly: more than half
+/// its length, to a degree. Else 0.
+std::complex<double> uprightTurn(const Outline& outline);
+
 /// Moves every point p of chart i to motions[i](p).
 void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh);
 

@@ -46,7 +46,6 @@ struct TargetRequest : VertexInput
 	bool onlyWhereNeeded = false; ///< see ConeOptions
 	bool measuresAreas = true;    ///< false: Automatic decides by topology alone
 	bool hasSeam = false;         ///< see Component: Automatic makes no flat annulus of it
-	bool mayMirror = false; ///< whether cones of the least cost, and seams, are to be mirrored
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
 	double alternative = kInfinity;
 	/// By what energy beyond that of an isometry costs more than is expected, see MapCost::total().

@@ -145,6 +145,12 @@ void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e)
 	}
 }
 
+namespace {
+
+/// The corners round which \p loop turns: 1 where they are on its left, -1 on its right; 0 elsewhere.
+/// The sum of their angles is the holonomy of the loop, in radians: the angle by which a direction that
+/// goes along with the walk has turned against the walk's own. Across a vertex with curvature K it
+/// changes by K, so that loops of one homology class have one holonomy up to sums of curvatures.
 HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop)
 {
 	HalfedgeArray<double> corners(t.halfedgeCount(), 0.0);
@@ -158,6 +164,7 @@ HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop
 	return corners;
 }
 
+/// Sum of \p weights times \p angles, both at the halfedges' origins.
 double sumOfAngles(const HalfedgeArray<double>& weights, const HalfedgeArray<double>& angles)
 {
 	DoubleDouble sum;
@@ -167,6 +174,7 @@ double sumOfAngles(const HalfedgeArray<double>& weights, const HalfedgeArray<dou
 	return static_cast<double>(sum);
 }
 
+/// The derivative of sumOfAngles() by the logarithms of the lengths, in flat triangles.
 EdgeArray<double> derivativeByLengths(
 	const Triangulation& t,
 	const HalfedgeArray<double>& weights,
@@ -184,8 +192,6 @@ EdgeArray<double> derivativeByLengths(
 	}
 	return derivative;
 }
-
-namespace {
 
 /// [vertex] The derivative of the holonomy of a loop by the curvature that the flow is to reach there: u
 /// follows the curvature, and the holonomy follows u. 0 where u is fixed.

@@ -25,21 +25,6 @@ std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles);
 /// Flips \p e in \p t, and in \p loops, which stay what they are up to homotopy.
 void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e);
 
-/// The corners round which \p loop turns: 1 where they are on its left, -1 on its right; 0 elsewhere.
-/// The sum of their angles is the holonomy of the loop, in radians: the angle by which a direction that
-/// goes along with the walk has turned against the walk's own. Across a vertex with curvature K it
-/// changes by K, so that loops of one homology class have one holonomy up to sums of curvatures.
-HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop);
-
-/// Sum of \p weights times \p angles, both at the halfedges' origins.
-double sumOfAngles(const HalfedgeArray<double>& weights, const HalfedgeArray<double>& angles);
-
-/// The derivative of sumOfAngles() by the logarithms of the lengths, in flat triangles.
-EdgeArray<double> derivativeByLengths(
-	const Triangulation& t,
-	const HalfedgeArray<double>& weights,
-	const HalfedgeArray<double>& angles);
-
 /// The holonomy of the loops (homologyLoops()) in the metric of a flow, and what changes it.
 struct Holonomy
 {

@@ -154,16 +154,9 @@ void prune(const ContractedGraph& graph, const VertexArray<char>& terminal, Edge
 	}
 }
 
-/// Counts the edges of \p cut and adds up their costs.
-void measure(const ContractedGraph& graph, CutGraph& cut)
+int countEdges(const EdgeArray<char>& isCut)
 {
-	cut.edgeCount = 0;
-	cut.length = 0.0;
-	for (const Edge e : cut.isCut.indices())
-		if (cut.isCut[e]) {
-			++cut.edgeCount;
-			cut.length += graph.cost(e);
-		}
+	return static_cast<int>(std::count(isCut.begin(), isCut.end(), 1));
 }
 
 /// Edges of the cut outside a spanning tree of it.
@@ -251,7 +244,7 @@ cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, Vertex
 		isCut[e] = !t.isBoundary(e) && !isCut[e];
 	const ContractedGraph graph(t, lengths);
 	prune(graph, graph.terminals(cones), isCut);
-	return cutGraphOf(t, lengths, std::move(cones), std::move(isCut));
+	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }
 
 CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
@@ -261,31 +254,25 @@ CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, Vertex
 	EdgeArray<char> isCut = treeAndLoops(graph, terminal);
 	prune(graph, terminal, isCut);
 	shortenCut(t, cost, cones, isCut);
-	return cutGraphOf(t, cost, std::move(cones), std::move(isCut));
+	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }
 
-CutGraph cutGraphOf(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	VertexArray<char> cones,
-	EdgeArray<char> isCut)
+CutGraph cutGraphOf(const Triangulation& t, VertexArray<char> cones, EdgeArray<char> isCut)
 {
-	const ContractedGraph graph(t, cost);
+	const EdgeArray<double> noCost(t.edgeCount(), 0.0);
+	const ContractedGraph graph(t, noCost);
 	CutGraph cut;
 	cut.isCut = std::move(isCut);
-	measure(graph, cut);
+	cut.edgeCount = countEdges(cut.isCut);
 	cut.generators = generators(graph, cut);
 	cut.cones = std::move(cones);
 	return cut;
 }
 
-void dropSeamsToHoles(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& closes,
-	CutGraph& cut)
+void dropSeamsToHoles(const Triangulation& t, const VertexArray<char>& closes, CutGraph& cut)
 {
-	const ContractedGraph graph(t, cost);
+	const EdgeArray<double> noCost(t.edgeCount(), 0.0);
+	const ContractedGraph graph(t, noCost);
 	VertexArray<char> terminal(t.vertexCount(), 0); // [node]
 	for (const Vertex v : t.vertices())
 		if (cut.cones[v])
@@ -294,7 +281,7 @@ void dropSeamsToHoles(
 		if (!closes[n])
 			terminal[n] = 1;
 	prune(graph, terminal, cut.isCut);
-	measure(graph, cut);
+	cut.edgeCount = countEdges(cut.isCut);
 }
 
 std::vector<std::vector<Halfedge>>

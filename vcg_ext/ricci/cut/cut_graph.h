@@ -23,8 +23,7 @@ struct CutGraph
 	/// nowhere else, generate the homology of the surface with every boundary loop filled.
 	std::vector<Edge> generators;
 
-	int edgeCount = 0;   ///< edges with isCut 1
-	double length = 0.0; ///< sum of their costs
+	int edgeCount = 0; ///< edges with isCut 1
 
 	bool isMirrored = false; ///< made by mirroredCut()
 };
@@ -45,11 +44,7 @@ struct CutGraph
 CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones);
 
 /// What a cut graph with these edges is.
-CutGraph cutGraphOf(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	VertexArray<char> cones,
-	EdgeArray<char> isCut);
+CutGraph cutGraphOf(const Triangulation& t, VertexArray<char> cones, EdgeArray<char> isCut);
 
 /// A short cut graph that \p mirror takes to itself: that of one half through the cones there, its image, and the edges in
 /// the plane but for one run of them, across which the halves stay together.
@@ -102,13 +97,8 @@ void shortenCut(
 /// Takes back the parts of \p cut that end at holes round which the metric closes: the chart goes
 /// round them in one piece. Where the cut runs on through such a hole to another place that it has
 /// to reach, it stays.
-/// \param cost what CutGraph::length adds up
 /// \param closes 1 on boundary loops whose holonomy is trivial, in rotation and in translation
-void dropSeamsToHoles(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& closes,
-	CutGraph& cut);
+void dropSeamsToHoles(const Triangulation& t, const VertexArray<char>& closes, CutGraph& cut);
 
 /// The edges of a cut as seams: chains of halfedges, each from a vertex where the cut branches or ends,
 /// at a cone or on the boundary to the next such vertex; or a loop without any, which come last.

@@ -145,7 +145,7 @@ std::optional<CutGraph> mirroredCut(
 	cutPlane(t, mirror, cost, ends, isCut);
 	if (!leavesDisk(t, isCut))
 		return std::nullopt;
-	CutGraph cut = cutGraphOf(t, cost, cones, std::move(isCut));
+	CutGraph cut = cutGraphOf(t, cones, std::move(isCut));
 	cut.isMirrored = true;
 	return cut;
 }

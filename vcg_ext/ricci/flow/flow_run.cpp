@@ -224,15 +224,11 @@ FlowRun FlowRun::onDouble(
 	const FlowProgress& progress)
 {
 	FlowRun run(surface, options, progress);
-	DoubleSurface d = doubleOf(surface.triangulation);
-	IntrinsicMesh mesh{d.triangulation, EdgeArray<double>(d.edgeOf.size())};
-	for (const Edge e : d.edgeOf.indices())
-		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
+	IntrinsicMesh mesh = doubleOf(surface.triangulation, surface.lengths, run.m_mirror);
 	run.m_result.doubled = true;
-	run.m_result.input = std::move(d.triangulation);
-	run.m_result.start = initialPacking(std::move(mesh), d.mirror, options);
-	run.m_result.target = targetOnDouble(target, d.mirror);
-	run.m_mirror = std::move(d.mirror);
+	run.m_result.input = mesh.triangulation;
+	run.m_result.start = initialPacking(std::move(mesh), run.m_mirror, options);
+	run.m_result.target = targetOnDouble(target, run.m_mirror);
 	run.begin();
 	return run;
 }

@@ -36,7 +36,8 @@ struct FlowResult
 	double residual = 0.0;  ///< max |target - K|
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
-	CholeskyWork work; ///< of the last linear solver, before the flow, too
+	int swaps = 0, splits = 0; ///< over all starts, see flowWithEdgeSwaps()
+	CholeskyWork work;         ///< of the last linear solver, before the flow, too
 	/// Of the linear solver: on the start's triangles where that has been factorised before, else on the last.
 	EliminationOrder order;
 
@@ -99,26 +100,20 @@ int improve(int maxRounds, int maxVain, Propose propose, Take take)
 	return round;
 }
 
-/// A flow with the remedy of paper 5.4 for triangles that break: inner edges are swapped, boundary
-/// edges are split, after which the flow starts again.
-struct SwappedFlow
-{
-	FlowDomain domain; ///< with the boundary edges split, before any swap
-	/// Its iterations are those of all starts, the triangulation of its metric is swapped.
-	FlowResult flow;
-	int swaps = 0; ///< over all starts
-	int splits = 0;
-};
-
 /// Chooses the target of one start of the flow.
 using ChooseTarget = std::function<Target(const EmbeddedSurface&, InitialPacking&)>;
 
+/// A flow with the remedy of paper 5.4 for triangles that break: inner edges are swapped, boundary
+/// edges are split, after which the flow starts again.
+/// \param domain receives that of the component with the boundary edges split, before any swap
 /// \param states those before each Newton step of all starts are appended
+/// \return its iterations are those of all starts, the triangulation of its metric is swapped
 /// \throw NotConverged, what \p chooseTarget throws
-SwappedFlow flowWithEdgeSwaps(
+FlowResult flowWithEdgeSwaps(
 	const Component& component,
 	const FlowOptions& options,
 	const ChooseTarget& chooseTarget,
+	FlowDomain& domain,
 	std::vector<FlowState>& states);
 
 } // namespace ricci

@@ -190,17 +190,19 @@ private:
 
 } // namespace
 
-SwappedFlow flowWithEdgeSwaps(
+FlowResult flowWithEdgeSwaps(
 	const Component& component,
 	const FlowOptions& options,
 	const ChooseTarget& chooseTarget,
+	FlowDomain& domain,
 	std::vector<FlowState>& states)
 {
 	SplitMesh mesh(component);
-	SwappedFlow result;
-	int steps = 0;
+	FlowResult flow;
+	int steps = 0, swaps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
-		EmbeddedSurface& surface = result.domain.surface;
+		domain = {};
+		EmbeddedSurface& surface = domain.surface;
 		surface = embeddedSurface(mesh.positions(), mesh.triangles());
 		const Triangulation& t = surface.triangulation;
 		InitialPacking start = initialPacking(surface, options);
@@ -212,8 +214,8 @@ SwappedFlow flowWithEdgeSwaps(
 		try {
 			if (!run.solve())
 				throw run.failure();
-			result.flow = run.result();
-			steps += result.flow.iterations;
+			flow = run.result();
+			steps += flow.iterations;
 		}
 		catch (NotConverged& error) {
 			error.swaps = swapper.swaps();
@@ -223,7 +225,7 @@ SwappedFlow flowWithEdgeSwaps(
 				throw;
 			steps += error.iterations;
 		}
-		result.swaps += swapper.swaps();
+		swaps += swapper.swaps();
 		// Also where the target is reached: a swap beside the broken triangle may have mended it.
 		if (!swapper.boundaryEdgesToSplit().empty()) {
 			mesh.split(t, swapper.boundaryEdgesToSplit());
@@ -231,15 +233,15 @@ SwappedFlow flowWithEdgeSwaps(
 				std::to_string(mesh.splits()) + " boundary edges split; the flow starts again.");
 			continue;
 		}
-		result.flow.iterations = steps;
-		result.splits = mesh.splits();
-		if (result.swaps > 0 || result.splits > 0)
-			result.domain.isForeign =
-				foreignEdges(t, swapper.swapped(), component.positions.size());
-		if (result.splits > 0)
+		flow.iterations = steps;
+		flow.swaps = swaps;
+		flow.splits = mesh.splits();
+		if (flow.swaps > 0 || flow.splits > 0)
+			domain.isForeign = foreignEdges(t, swapper.swapped(), component.positions.size());
+		if (flow.splits > 0)
 			for (const Face f : component.face.indices())
-				result.domain.corners.push_back(mesh.corners(t, f));
-		return result;
+				domain.corners.push_back(mesh.corners(t, f));
+		return flow;
 	}
 	throw NotConverged(NotConverged::SplitsUsedUp, positionOf(mesh.splits()));
 }

@@ -97,6 +97,21 @@ double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Tria
 	return distortionOf(shapeOf(surface), plane);
 }
 
+double percentile(std::vector<double> values, double share)
+{
+	if (values.empty())
+		return std::numeric_limits<double>::quiet_NaN();
+	const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
+	const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+	std::nth_element(values.begin(), nth, values.end());
+	return *nth;
+}
+
+namespace {
+
+/// What a map of triangles does to their areas, each relative to its total. Of the report, nothing else is set.
+/// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
+/// of the totals too, and those whose shares of the totals are below the normal numbers.
 DistortionReport areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
 {
 	double totalBefore = 0.0, totalAfter = 0.0;
@@ -124,18 +139,6 @@ DistortionReport areaDistortion(const std::vector<double>& before, const std::ve
 	distortion.areaDistortionSpread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
 	return distortion;
 }
-
-double percentile(std::vector<double> values, double share)
-{
-	if (values.empty())
-		return std::numeric_limits<double>::quiet_NaN();
-	const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
-	const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
-	std::nth_element(values.begin(), nth, values.end());
-	return *nth;
-}
-
-namespace {
 
 /// \param own own(triangle) on the surface
 template<class Own>

@@ -30,12 +30,6 @@ std::vector<double> triangleAreas(
 	const std::vector<Triangle>& triangles,
 	const std::vector<std::array<double, 3>>& lengths);
 
-/// What a map of triangles does to their areas, each relative to its total. Of the report, nothing else is set.
-/// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
-/// of the totals too, and those whose shares of the totals are below the normal numbers.
-DistortionReport
-areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
-
 /// The smallest of \p values that at least a share \p share of them does not exceed (nearest rank),
 /// 0 < \p share <= 1; NaN where there are none. None of them is NaN.
 double percentile(std::vector<double> values, double share);

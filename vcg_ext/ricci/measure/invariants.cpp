@@ -13,6 +13,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -20,13 +21,6 @@
 #include <vector>
 
 namespace ricci {
-
-std::complex<double> period(const Triangulation& t, const PlanarLayout& layout, Edge e)
-{
-	const Halfedge h = e.halfedge(), g = h.twin();
-	return 0.5 * (asComplex(layout[t.next(g)]) - asComplex(layout[h]) + asComplex(layout[g]) -
-				  asComplex(layout[t.next(h)]));
-}
 
 std::complex<double> reduceToFundamentalDomain(std::complex<double> tau)
 {
@@ -47,6 +41,19 @@ std::complex<double> reduceToFundamentalDomain(std::complex<double> tau)
 	return tau;
 }
 
+namespace {
+
+/// Translation (in the plane of the layout) between the two sides of cut edge \p e: from the side
+/// of its halfedge to that of the twin. Meaningful where the metric's holonomy is a translation.
+std::complex<double> period(const Triangulation& t, const PlanarLayout& layout, Edge e)
+{
+	const Halfedge h = e.halfedge(), g = h.twin();
+	return 0.5 * (asComplex(layout[t.next(g)]) - asComplex(layout[h]) + asComplex(layout[g]) -
+				  asComplex(layout[t.next(h)]));
+}
+
+/// Conformal modulus of a flat torus: the quotient of two periods that span its lattice, reduced.
+/// \pre \p cut has two generators
 std::complex<double>
 torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut)
 {
@@ -57,11 +64,59 @@ torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph&
 	return reduceToFundamentalDomain(tau.imag() > 0.0 ? tau : 1.0 / tau);
 }
 
+/// Conformal modulus ln(r2/r1) / 2 pi of a flat annulus with straight boundaries, a cylinder: its
+/// height over its circumference, from its \p area in the layout and the translation across the
+/// cut.
+/// \pre \p cut has an edge
 double
 annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut, double area)
 {
 	const Edge e(std::find(cut.isCut.begin(), cut.isCut.end(), 1) - cut.isCut.begin());
 	return area / std::norm(period(t, layout, e));
+}
+
+/// Longer over shorter side of a surface laid out as a rectangle with these \p corners, in boundary
+/// order. Opposite sides are averaged.
+double rectangleAspect(
+	const Triangulation& t, const PlanarLayout& layout, const std::array<Vertex, 4>& corners)
+{
+	std::array<Point2, 4> place{};
+	for (const Halfedge h : t.interiorHalfedges())
+		for (std::size_t k = 0; k < 4; ++k)
+			if (t.origin(h) == corners[k])
+				place[k] = layout[h];
+	std::array<double, 4> side{};
+	for (std::size_t k = 0; k < 4; ++k)
+		side[k] = distance(place[k], place[(k + 1) % 4]);
+	const double a = side[0] + side[2], b = side[1] + side[3];
+	return std::max(a, b) / std::min(a, b);
+}
+
+} // namespace
+
+InvariantReport conformalInvariants(
+	const EmbeddedSurface& surface,
+	const PlanarLayout& layout,
+	const FlowResult& flow,
+	const CutGraph& cut,
+	double area)
+{
+	InvariantReport report;
+	const Triangulation& t = surface.triangulation;
+	const SurfaceType& type = surface.topology.type;
+	const Target& target = flow.target;
+	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+	if (type.isTorus() && flat) {
+		const std::complex<double> tau = torusModulus(t, layout, cut);
+		report.torusTauRe = tau.real();
+		report.torusTauIm = tau.imag();
+	}
+	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount > 0)
+		report.annulusModulus = annulusModulus(t, layout, cut, area);
+	if (target.corners)
+		report.rectangleAspect = rectangleAspect(t, layout, *target.corners);
+	return report;
 }
 
 double quarterTurnError(const FlowDomain& domain, const FlatMesh& map, const CutGraph& cut)
@@ -82,21 +137,6 @@ double quarterTurnError(const FlowDomain& domain, const FlatMesh& map, const Cut
 		error = std::max(error, std::abs(std::remainder(std::arg(sum), 0.5 * kPi)));
 	}
 	return error;
-}
-
-double rectangleAspect(
-	const Triangulation& t, const PlanarLayout& layout, const std::array<Vertex, 4>& corners)
-{
-	std::array<Point2, 4> place{};
-	for (const Halfedge h : t.interiorHalfedges())
-		for (std::size_t k = 0; k < 4; ++k)
-			if (t.origin(h) == corners[k])
-				place[k] = layout[h];
-	std::array<double, 4> side{};
-	for (std::size_t k = 0; k < 4; ++k)
-		side[k] = distance(place[k], place[(k + 1) % 4]);
-	const double a = side[0] + side[2], b = side[1] + side[3];
-	return std::max(a, b) / std::min(a, b);
 }
 
 namespace {

@@ -90,18 +90,6 @@ EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>&
 EmbeddedSurface
 embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles);
 
-/// Two copies of a surface with boundary, the second one reversed, glued along the boundary: a
-/// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
-/// first copy; an exterior halfedge of the surface is an interior one of the second copy.
-struct DoubleSurface
-{
-	Triangulation triangulation;
-	VertexArray<Vertex> mirror; ///< the image in the other copy; on the boundary the vertex itself
-	EdgeArray<Edge> edgeOf;     ///< the surface's edge that it is or mirrors
-};
-
-DoubleSurface doubleOf(const Triangulation& t);
-
 /// What one component gives the flow to run on.
 struct FlowDomain
 {

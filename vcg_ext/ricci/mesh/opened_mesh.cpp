@@ -527,12 +527,8 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted)
 		throw InvalidMesh(array, length, wanted);
 }
 
-OpenedMesh openMesh(
-	const SurfaceMesh& mesh,
-	std::vector<std::string>& notes,
-	OneSidedCut cut,
-	JoinSplitVertices join,
-	double sharpAngle)
+OpenedMesh
+openMesh(const SurfaceMesh& mesh, OneSidedCut cut, JoinSplitVertices join, double sharpAngle)
 {
 	checkElements(mesh);
 	Opening opening(mesh);
@@ -541,9 +537,7 @@ OpenedMesh openMesh(
 	opening.openSeams(sharpAngle);
 	opening.cutOneSidedComponents(cut);
 	opening.leaveOutFlatComponents();
-	OpenedMesh opened = opening.result();
-	describe(mesh, opened, notes);
-	return opened;
+	return opening.result();
 }
 
 } // namespace ricci

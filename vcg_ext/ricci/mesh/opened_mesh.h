@@ -79,19 +79,18 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted);
 /// \p sharpAngle (FlowOptions) that are not inside polygons. A seam of one
 /// edge that touches neither another nor a boundary goes on along the edge that leads straightest on: else both its
 /// sides would have the same two vertices, and lie on each other in the plane. Left out are faces that use a vertex
-/// twice, and components that have no area. What was done is told in \p notes.
+/// twice, and components that have no area.
 /// \throw InvalidMesh for the first of these that is found, with its number: no faces; marks of sides for another
 /// number of faces; faces that use vertices which are not in the mesh; coordinates that are not finite or
 /// beyond 1e50; components smaller than 1e-50; no face with an area, or none beside a vertex too far away
 OpenedMesh openMesh(
 	const SurfaceMesh& mesh,
-	std::vector<std::string>& notes,
 	OneSidedCut cut = OneSidedCut::Shortest,
 	JoinSplitVertices join = JoinSplitVertices::Never,
 	double sharpAngle = kPi);
 
-/// Adds sentences on what openMesh() has done.
-void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std::string>& notes);
+/// Sentences on what openMesh() has done.
+std::vector<std::string> openingNotes(const SurfaceMesh& mesh, const OpenedMesh& opened);
 
 } // namespace ricci
 

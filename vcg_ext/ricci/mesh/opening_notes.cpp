@@ -8,8 +8,9 @@
 
 namespace ricci {
 
-void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std::string>& notes)
+std::vector<std::string> openingNotes(const SurfaceMesh& mesh, const OpenedMesh& opened)
 {
+	std::vector<std::string> notes;
 	std::vector<char> isUsed(mesh.positions.size(), 0);
 	for (const Triangle& t : mesh.triangles)
 		for (const int v : t)
@@ -74,6 +75,7 @@ void describe(const SurfaceMesh& mesh, const OpenedMesh& opened, std::vector<std
 		"face has no area and is drawn as a line or a point",
 		"faces have no area and are drawn as lines or points",
 		".");
+	return notes;
 }
 
 } // namespace ricci

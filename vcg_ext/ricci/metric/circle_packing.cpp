@@ -5,6 +5,7 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../mesh/surface_mesh.h"
 #include "area.h"
 #include "conformal_flip.h"
 #include "geometry.h"
@@ -241,6 +242,54 @@ Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths)
 		if (lengths[e] > original[e])
 			total.largest = std::max(total.largest, (lengths[e] - original[e]) / lengths[e]);
 	return total;
+}
+
+IntrinsicMesh
+doubleOf(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<Vertex>& mirror)
+{
+	const int faceCount = t.faceCount();
+	const VertexArray<char> boundary = t.boundaryVertices();
+	int vertexCount = t.vertexCount();
+	mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		mirror[v] = boundary[v] ? v : Vertex(vertexCount++);
+	mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		mirror[mirror[v]] = v;
+
+	// Side k of a face runs from corner k to k + 1; side 2 - k of its image mirrors it.
+	HalfedgeArray<Corner> side(t.halfedgeCount());
+	Array<Triangle> triangles(2 * faceCount);
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto v = t.vertices(f);
+		for (const Corner c : cornersOf(f.number())) {
+			side[h[c.index()]] = c;
+			triangles[c] = v[c.index()].number();
+		}
+		triangles[faceCount + f.number()] = {
+			mirror[v[0]].number(), mirror[v[2]].number(), mirror[v[1]].number()};
+	}
+	const auto image = [&](Corner c) {
+		return Corner(faceCount + c.face(), 2 - static_cast<int>(c.index()));
+	};
+	CornerArray<Corner> glued(6 * faceCount);
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const Corner s = side[h], across = side[h.twin()];
+		glued[s] = across.isValid() ? across : image(s);
+		glued[image(s)] = across.isValid() ? image(across) : s;
+	}
+	IntrinsicMesh d{Triangulation(vertexCount, triangles.values(), glued), {}};
+	d.lengths.resize(d.triangulation.edgeCount());
+	for (const Face f : t.faces()) {
+		const auto h = d.triangulation.halfedges(f);
+		const auto mirrored = d.triangulation.halfedges(Face(faceCount + f.number()));
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Edge e = h[k].edge();
+			d.lengths[e] = d.lengths[mirrored[2 - k].edge()] = lengths[e];
+		}
+	}
+	return d;
 }
 
 InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)

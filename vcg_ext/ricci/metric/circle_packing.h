@@ -34,6 +34,13 @@ struct IntrinsicMesh
 	EdgeArray<double> lengths;
 };
 
+/// Two copies of a surface with boundary, the second one reversed, glued along the boundary: a
+/// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
+/// first copy; an exterior halfedge of the surface is an interior one of the second copy.
+/// \param mirror receives [vertex] the image in the other copy; on the boundary the vertex itself
+IntrinsicMesh
+doubleOf(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<Vertex>& mirror);
+
 /// What mollify() adds to the edges: atVertex[i] + atVertex[j] to edge ij.
 struct Lengthening
 {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "finish.h"
+#include "repair.h"
 
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../flow/target.h"
 #include "least_distortion.h"
-#include "repair.h"
 
 #include <cmath>
 #include <string>
@@ -44,7 +43,7 @@ CostOfPatch costWithCuts(const FlatMesh& map, const Validity& validity)
 
 } // namespace
 
-FinishCounts finishInPlane(
+Repair finishInPlane(
 	FlatMesh& flat,
 	const VertexArray<char>& cones,
 	bool freeBoundary,
@@ -59,23 +58,20 @@ FinishCounts finishInPlane(
 	const BoundaryRepair boundary = freeBoundary ? BoundaryRepair::Free
 									: mayCut     ? BoundaryRepair::Kept
 												 : BoundaryRepair::KeptOnCircles;
-	const auto repair = [&] {
-		const double height = kMinHeight * flat.box().extent();
-		const Validity validity{height, kWantedHeights * height};
-		const CostOfPatch cost = mayCut ? costWithCuts(flat, validity) : nullptr;
-		WorkLimit limit(flat.points.size(), WorkLimit::kFew);
-		const Repair result = repairInStages(
-			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, boundary}, limit);
-		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
-		if (counts.endedEarly > 0)
-			logLine(
-				"The repair of flipped faces stopped at its work limit, with " +
-				std::to_string(result.left) + " left.");
-		return counts;
-	};
+	const double height = kMinHeight * flat.box().extent();
+	const Validity validity{height, kWantedHeights * height};
+	const CostOfPatch cost = mayCut ? costWithCuts(flat, validity) : nullptr;
+	WorkLimit limit(flat.points.size(), WorkLimit::kFew);
+	Repair result = repairInStages(
+		flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, boundary}, limit);
+	if (result.left > 0 && limit.left() == 0) {
+		++result.endedEarly;
+		logLine(
+			"The repair of flipped faces stopped at its work limit, with " +
+			std::to_string(result.left) + " left.");
+	}
 	if (finish == Finish::Repair)
-		return repair();
-	FinishCounts counts = repair();
+		return result;
 	bool endedEarly = false;
 	if (finish == Finish::LeastStretch) {
 		scaleToSurface(flat);
@@ -85,8 +81,8 @@ FinishCounts finishInPlane(
 		endedEarly = leastDistortion(flat, joinedPoints(flat, cones, freeBoundary), mayCut);
 	if (endedEarly)
 		logLine("The finish stopped at its step limit: the map could still be slightly better.");
-	counts.endedEarly += endedEarly;
-	return counts;
+	result.endedEarly += endedEarly;
+	return result;
 }
 
 } // namespace ricci

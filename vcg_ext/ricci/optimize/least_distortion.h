@@ -3,11 +3,9 @@
 #define RICCI_LEAST_DISTORTION_H
 
 #include "../layout/flat_mesh.h"
-#include "../mesh/elements.h"
 #include "mean_distortion.h"
 
 #include <Eigen/SparseCore>
-#include <array>
 
 namespace ricci {
 

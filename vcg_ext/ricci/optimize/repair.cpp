@@ -322,24 +322,20 @@ std::vector<Untangled> solveAll(
 }
 
 /// Takes over the patches that are valid.
-/// \return whether there are any
-bool takeOver(
+void takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
 	const RepairRules& rules,
 	FlatMesh& flat,
 	Repair& result)
 {
-	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
 		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.cost))
 			continue;
-		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
 				result.moved[patches[i].points[k]] = 1;
 	}
-	return isAny;
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the map.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The folder optimize: moves points of a flat mesh, to repair, for least distortion, for least stretch. It knows no
+// chart.
 #ifndef RICCI_REPAIR_H
 #define RICCI_REPAIR_H
 
 #include "../layout/flat_mesh.h"
+#include "../mesh/elements.h"
+#include "../options.h"
 #include "patches.h"
 #include "point_groups.h"
 
@@ -63,9 +67,10 @@ Untangled ease(const PatchProblem& problem, const Patch& patch, int maxSteps);
 /// What repair() has done.
 struct Repair
 {
-	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
-	int bad = 0;       ///< triangles that were not valid before
-	int left = 0;      ///< and after
+	Array<char> moved;  ///< [point] 1 where the repair moved it; empty where nothing was to be done
+	int bad = 0;        ///< triangles that were not valid before
+	int left = 0;       ///< and after
+	int endedEarly = 0; ///< of finishInPlane(): parts that the bound on their work has ended
 
 	int movedCount() const;
 	/// Takes over what a second repair of the same mesh has done.
@@ -134,6 +139,23 @@ Repair repairInStages(
 /// \param boundaryMoves whether points of the surface's boundary may move
 Repair
 repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
+
+/// The finish of a component's map to the plane on its own triangles, which straight lines in place of
+/// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
+/// least stretch.
+/// \param cones 1 at cones inside
+/// \param freeBoundary whether the curvature of the boundary is free
+/// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
+/// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
+/// \return what the repair has done
+/// \pre finish is not Finish::None
+Repair finishInPlane(
+	FlatMesh& flat,
+	const VertexArray<char>& cones,
+	bool freeBoundary,
+	const VertexArray<char>& onHole,
+	Finish finish,
+	bool mayCut);
 
 /// Puts the border of a disk, which the flow has made round as far as it went, on a circle.
 void makeRound(FlatMesh& flat);
