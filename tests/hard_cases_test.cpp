@@ -5,7 +5,6 @@
 #include "support/flipped_flow.h"
 #include "support/front_door.h"
 #include "support/intrinsic.h"
-#include "support/random.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
 

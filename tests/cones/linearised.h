@@ -2,8 +2,8 @@
 #ifndef RICCI_TESTS_LINEARISED_H
 #define RICCI_TESTS_LINEARISED_H
 
-#include "support/dense.h"
-#include "support/packed.h"
+#include "support/intrinsic.h"
+#include "support/matrices.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
