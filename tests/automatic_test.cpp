@@ -4,7 +4,7 @@
 #include "support/flat_map.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/transform.h"
+#include "support/shapes.h"
 
 #include <array>
 #include <map>

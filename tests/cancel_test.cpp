@@ -18,7 +18,6 @@
 #include <ctime>
 #include <functional>
 #include <set>
-#include <stdexcept>
 #include <thread>
 
 namespace ricci::testing {

@@ -5,7 +5,7 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
-#include "support/transform.h"
+#include "support/shapes.h"
 
 #include <array>
 #include <complex>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces given by the lengths of their edges alone, and the headers ricci.h and hyperbolic.h.
-#include "support/packed.h"
+#include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 

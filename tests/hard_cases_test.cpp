@@ -5,7 +5,6 @@
 #include "support/flipped_flow.h"
 #include "support/front_door.h"
 #include "support/intrinsic.h"
-#include "support/random.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
 
@@ -89,30 +88,30 @@ SurfaceMesh withCap(double height)
 	return mesh;
 }
 
-const TargetCurvature kDiskTargets[] = {
-	TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle};
+void expectSolvedAsDisk(const SurfaceMesh& mesh)
+{
+	for (const TargetCurvature target :
+		 {TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle}) {
+		SCOPED_TRACE(static_cast<int>(target));
+		expectSolved(mesh, refined(target));
+	}
+}
 
 TEST(HardCases, Needles)
 {
 	// The shortest side over the longest, 1/8: from an angle of 0.05 degrees to less than 1e-6.
-	for (double gap : {1e-4, 1e-6, 2e-7, 1e-7, 2e-9, 1e-11, 1e-14})
-		for (TargetCurvature target : kDiskTargets) {
-			SCOPED_TRACE(
-				"gap " + std::to_string(std::log10(gap)) + ", target " +
-				std::to_string(static_cast<int>(target)));
-			expectSolved(withNeedles(gap), refined(target));
-		}
+	for (double gap : {1e-4, 1e-6, 2e-7, 1e-7, 2e-9, 1e-11, 1e-14}) {
+		SCOPED_TRACE("gap " + std::to_string(std::log10(gap)));
+		expectSolvedAsDisk(withNeedles(gap));
+	}
 }
 
 TEST(HardCases, Caps)
 {
-	for (double height : {1e-4, 1e-6, 1e-7, 2e-9, 1e-11, 0.0})
-		for (TargetCurvature target : kDiskTargets) {
-			SCOPED_TRACE(
-				"height " + std::to_string(height) + ", target " +
-				std::to_string(static_cast<int>(target)));
-			expectSolved(withCap(height), refined(target));
-		}
+	for (double height : {1e-4, 1e-6, 1e-7, 2e-9, 1e-11, 0.0}) {
+		SCOPED_TRACE("height " + std::to_string(height));
+		expectSolvedAsDisk(withCap(height));
+	}
 }
 
 TEST(HardCases, NeedlesOnAClosedSurface)
@@ -138,10 +137,7 @@ TEST(HardCases, EdgesWithoutLength)
 	SurfaceMesh disk = randomPlanarDisk(8, random);
 	disk.positions[0] = disk.positions[1];   // on the boundary
 	disk.positions[40] = disk.positions[41]; // inside
-	for (TargetCurvature target : kDiskTargets) {
-		SCOPED_TRACE(static_cast<int>(target));
-		expectSolved(disk, refined(target));
-	}
+	expectSolvedAsDisk(disk);
 }
 
 /// Coordinates as a file with few digits has them.
@@ -157,10 +153,7 @@ TEST(HardCases, RoundedCoordinates)
 		for (std::size_t k = 0; k < 3; ++k)
 			collapsed += mesh.positions[at(t[k])] == mesh.positions[at(t[(k + 1) % 3])];
 	EXPECT_GT(collapsed, 0);
-	for (TargetCurvature target : kDiskTargets) {
-		SCOPED_TRACE(static_cast<int>(target));
-		expectSolved(mesh, refined(target));
-	}
+	expectSolvedAsDisk(mesh);
 }
 
 /// A vertex on the edge of a larger face, joined to it by a face without area.
@@ -170,8 +163,7 @@ TEST(HardCases, TVertex)
 		{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}, {0.5, 1.5, 0.4}},
 		// 0-2 is the long edge with 4 on it.
 		{{0, 1, 2}, {0, 2, 4}, {4, 2, 5}, {0, 4, 5}, {5, 2, 3}, {0, 5, 3}}};
-	for (TargetCurvature target : kDiskTargets)
-		expectSolved(mesh, refined(target));
+	expectSolvedAsDisk(mesh);
 	// A closed surface, one end of which is pressed flat: four edges without length.
 	SurfaceMesh flatBox = perforatedSlab(0, 1);
 	for (std::size_t v = 4; v < 8; ++v)
@@ -182,10 +174,7 @@ TEST(HardCases, TVertex)
 TEST(HardCases, ValenceOfAThousand)
 {
 	const SurfaceMesh disk = fan(1000, 0.7);
-	for (TargetCurvature target : kDiskTargets) {
-		SCOPED_TRACE(static_cast<int>(target));
-		expectSolved(disk, refined(target));
-	}
+	expectSolvedAsDisk(disk);
 	const SurfaceMesh closed = bipyramid(1000, 0.7);
 	const int apex = 1000, other = 1001;
 	expectSolved(closed, refined(TargetCurvature::SelectedCones), selecting(closed, {0, 300, 700}));
@@ -252,12 +241,10 @@ TEST(HardCases, SingleTriangle)
 TEST(HardCases, TwoTriangles)
 {
 	const SurfaceMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-	for (TargetCurvature target : kDiskTargets)
-		expectSolved(square, refined(target));
+	expectSolvedAsDisk(square);
 	SurfaceMesh bent = square;
 	bent.positions[3] = {0.9, 0.1, 0.05}; // both on one side of the diagonal
-	for (TargetCurvature target : kDiskTargets)
-		expectSolved(bent, refined(target));
+	expectSolvedAsDisk(bent);
 }
 
 TEST(HardCases, TetrahedronWithThreeCones)

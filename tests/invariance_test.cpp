@@ -7,7 +7,6 @@
 #include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +17,6 @@
 #include <fstream>
 #include <functional>
 #include <limits>
-#include <thread>
 
 #ifdef __linux__
 #include <sched.h>

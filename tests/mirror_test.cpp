@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces that are their own mirror images.
 #include "support/flat_map.h"
-#include "support/random.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "support/intrinsic.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/transform.h"
+#include "support/shapes.h"
 
 #include <ricci/flow/target.h>
 #include <ricci/ricci.h>

@@ -7,7 +7,6 @@
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 #include "support/vcg_mesh.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>

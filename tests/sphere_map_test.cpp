@@ -3,7 +3,6 @@
 #include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <ricci/sphere_map.h>
 

@@ -4,7 +4,6 @@
 #include "support/flat_map.h"
 #include "support/random.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <gtest/gtest.h>
 

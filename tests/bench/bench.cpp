@@ -3,8 +3,8 @@
 // factorisation and solution of the same matrix: a number that does not depend on the machine's
 // speed. One process measures one mesh, so that the peak of its memory means something; it is that of
 // the complete run from mesh to plane, which is first.
+#include "support/flipped_flow.h"
 #include "support/random_surface.h"
-#include "support/run_flow.h"
 #include "support/shapes.h"
 #ifdef RICCI_HAVE_VCGLIB
 #include "support/mesh_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts that cover a part of the plane more than once become several that do not.
-#include "screw.h"
 #include "support/flat_map.h"
+#include "support/shapes.h"
 
 #include <ricci/parametrize.h>
 

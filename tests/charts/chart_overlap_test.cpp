@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "screw.h"
 #include "support/flat_meshes.h"
 #include "support/random.h"
+#include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/charts/chart_overlap.h>

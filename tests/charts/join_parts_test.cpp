@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How charts are divided, and parts joined. chart_division_test.cpp has what becomes of whole maps.
-#include "screw.h"
 #include "support/flat_meshes.h"
 #include "support/random.h"
+#include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/charts/chart_overlap.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "linearised.h"
-#include "support/run_flow.h"
+#include "support/flipped_flow.h"
 
 #include <ricci/cones/target_curvature.h>
 

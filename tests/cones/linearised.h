@@ -2,8 +2,8 @@
 #ifndef RICCI_TESTS_LINEARISED_H
 #define RICCI_TESTS_LINEARISED_H
 
-#include "support/dense.h"
-#include "support/packed.h"
+#include "support/intrinsic.h"
+#include "support/matrices.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -41,13 +41,11 @@ linearCases(std::uint64_t seed, int ofSphere, int genus, int ofOther, double noi
 /// A linear flow with what it refers to.
 struct Linearised
 {
-	Packed packed;
 	EmbeddedSurface surface;
 	InitialPacking start;
 	LinearFlow flow;
 
 	explicit Linearised(const LinearCase& c) :
-			packed(c.mesh),
 			surface(embeddedSurface(VertexArray<Point3>(c.mesh.positions), c.mesh.triangles)),
 			start(initialPacking(surface, FlowOptions())), flow(surface, start, c.boundary)
 	{

@@ -2,7 +2,8 @@
 // What each target asks of the flow.
 #include "support/expect.h"
 #include "support/front_door.h"
-#include "support/transform.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
 
 #include <ricci/parametrize.h>
 

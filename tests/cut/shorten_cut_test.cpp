@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cuts that open surfaces, and shorter ones.
 #include "support/expect.h"
+#include "support/intrinsic.h"
 #include "support/listener.h"
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curvature of a packing and its derivative, in both backgrounds.
-#include "support/dense.h"
-#include "support/packed.h"
+#include "support/intrinsic.h"
+#include "support/matrices.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/wide.h"

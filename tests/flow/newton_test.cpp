@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/packed.h"
+#include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/wide.h"

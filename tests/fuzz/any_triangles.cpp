@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "any_triangles.h"
+#include "hostile_mesh.h"
 
 #include "support/shapes.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hostile_mesh.h"
 
-#include "any_triangles.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>

@@ -11,6 +11,27 @@
 
 namespace ricci::testing {
 
+inline int vertexCount(const SurfaceMesh& mesh)
+{
+	return static_cast<int>(mesh.positions.size());
+}
+
+inline int faceCount(const SurfaceMesh& mesh)
+{
+	return static_cast<int>(mesh.triangles.size());
+}
+
+inline Point3 randomPoint(ByteSource& bytes)
+{
+	const double x = bytes.real(-1, 1), y = bytes.real(-1, 1), z = bytes.real(-1, 1);
+	return {x, y, z};
+}
+
+/// A mesh that is not an oriented manifold: pinched, with sheets that meet at an edge, one-sided, with
+/// faces twice, with faces or components without area, or several of these.
+/// \param base an ordinary mesh to begin with; some kinds do without
+SurfaceMesh anyTriangles(const SurfaceMesh& base, ByteSource& bytes);
+
 /// A mesh and parameters such as no user means but some program writes: random connectivity,
 /// duplicated and collapsed faces, deleted elements, coordinates that are huge, denormal or no
 /// numbers, stars of thousands of faces, thousands of components.

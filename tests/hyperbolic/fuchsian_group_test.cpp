@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The groups of hyperbolic results: their relations, and the geodesics that they tell.
 #include "support/complex.h"
-#include "support/disk.h"
 #include "support/random_surface.h"
 #include "support/reflected.h"
-#include "support/transform.h"
+#include "support/shapes.h"
+#include "support/wide.h"
 
 #include <ricci/parametrize.h>
 

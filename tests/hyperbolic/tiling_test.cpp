@@ -3,7 +3,6 @@
 #include "support/complex.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>

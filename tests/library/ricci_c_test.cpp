@@ -342,8 +342,16 @@ Wrong given(
 	return {[=](CRun& r) { return ricci_execute(r.set(name, entries, shape)); }, code, words};
 }
 
+/// A picture that is none.
+Wrong drawnWith(const ricci_array& picture, int32_t code, const char* words)
+{
+	return {[=](CRun& r) { return ricci_add_picture(r, "old.png", &picture); }, code, words};
+}
+
 TEST(Library, RefusesWithACodeAndASentence)
 {
+	constexpr int64_t kMany = std::numeric_limits<int32_t>::max();
+	const std::vector<uint8_t> texels(20);
 	const Wrong all[] = {
 		setting("epsilonn", "1", "no parameter 'epsilonn'"),
 		setting("finish", "Best", "finish must be one of 'None', 'Repair', .*, not 'Best'"),
@@ -435,28 +443,16 @@ TEST(Library, RefusesWithACodeAndASentence)
 		 },
 		 RICCI_REFUSED,
 		 "1 vertex"},
-		{[](CRun& r) {
-			 const std::vector<uint8_t> texels(20);
-			 const ricci_array array = arrayOf(texels, {2, 2, 5});
-			 return ricci_add_picture(r, "old.png", &array);
-		 },
-		 RICCI_MISUSE,
-		 "The picture old.png must have rows, columns and 1 to 4 channels"},
-		{[](CRun& r) {
-			 const std::vector<float> texels(4);
-			 const ricci_array array = arrayOf(texels, {2, 2, 1});
-			 return ricci_add_picture(r, "old.png", &array);
-		 },
-		 RICCI_MISUSE,
-		 "bytes or 16-bit words"},
-		{[](CRun& r) {
-			 const std::vector<uint8_t> texels(4);
-			 ricci_array array = arrayOf(texels, {2, 2, 1});
-			 array.shape[0] = array.shape[1] = std::numeric_limits<int32_t>::max();
-			 return ricci_add_picture(r, "old.png", &array);
-		 },
-		 RICCI_NO_MEMORY,
-		 "not enough memory"}};
+		drawnWith(
+			{RICCI_UINT8, 3, {2, 2, 5}, texels.data()},
+			RICCI_MISUSE,
+			"The picture old.png must have rows, columns and 1 to 4 channels"),
+		drawnWith(
+			{RICCI_FLOAT32, 3, {2, 2, 1}, texels.data()}, RICCI_MISUSE, "bytes or 16-bit words"),
+		drawnWith(
+			{RICCI_UINT8, 3, {kMany, kMany, 1}, texels.data()},
+			RICCI_NO_MEMORY,
+			"not enough memory")};
 	const SurfaceMesh mesh = torus(2, 0.8, 6, 4);
 	ASSERT_EQ(mesh.triangles.size(), 48u); // and 24 vertices
 	for (const Wrong& wrong : all) {

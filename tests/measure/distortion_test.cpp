@@ -3,7 +3,7 @@
 #include "support/complex.h"
 #include "support/flat_meshes.h"
 #include "support/random.h"
-#include "support/transform.h"
+#include "support/shapes.h"
 
 #include <ricci/measure/distortion.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/complex.h"
+#include "support/matrices.h"
 #include "support/random.h"
-#include "support/siegel_distance.h"
 
 #include <ricci/measure/invariants.h>
 

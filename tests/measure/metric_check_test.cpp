@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
 #include "support/flipped_flow.h"
-#include "support/packed.h"
+#include "support/intrinsic.h"
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces whose period matrix is known: flat tori, squares, and hyperelliptic curves.
 #include "support/complex.h"
-#include "support/dense.h"
 #include "support/intrinsic.h"
+#include "support/matrices.h"
 #include "support/random.h"
 #include "support/reflected.h"
-#include "support/siegel_distance.h"
 
 #include <ricci/parametrize.h>
 

@@ -4,7 +4,6 @@
 #include "support/flat_map.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <ricci/parametrize.h>
 

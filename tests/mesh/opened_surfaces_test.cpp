@@ -2,8 +2,8 @@
 // Surfaces that are cut open before the flow, as the report and the map show them.
 #include "support/bad_surfaces.h"
 #include "support/expect.h"
-#include "support/random.h"
-#include "support/transform.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
 
 #include <ricci/error.h>
 #include <ricci/parametrize.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/disk.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"

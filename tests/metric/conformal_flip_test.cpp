@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a packing starts, and its flips.
 #include "support/intrinsic.h"
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 

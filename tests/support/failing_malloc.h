@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib> // tells whether the C library is glibc
 #include <new>
 
 // A C library whose allocations fail on demand. A program that lists failing_malloc.cpp among its

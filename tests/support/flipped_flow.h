@@ -3,7 +3,6 @@
 #define RICCI_TESTS_FLIPPED_FLOW_H
 
 #include "random.h"
-#include "run_flow.h"
 
 #include <ricci/cones/target_curvature.h>
 #include <ricci/cut/cut_graph.h>
@@ -13,9 +12,21 @@
 #include <ricci/options.h>
 #include <ricci/refinement/overlay_pieces.h>
 
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
+
+/// The flow with its states forgotten.
+inline FlowResult runRicciFlow(
+	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
+	const FlowOptions& options)
+{
+	std::vector<FlowState> states;
+	return ricci::runRicciFlow(surface, std::move(start), target, options, states);
+}
 
 /// What chooseHyperbolicTarget() is asked for.
 struct HyperbolicRequest : VertexInput

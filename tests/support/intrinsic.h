@@ -2,12 +2,15 @@
 #ifndef RICCI_TESTS_INTRINSIC_H
 #define RICCI_TESTS_INTRINSIC_H
 
+#include <ricci/flow/curvature_map.h>
 #include <ricci/mesh/component.h>
 #include <ricci/mesh/opened_mesh.h>
 #include <ricci/mesh/surface_mesh.h>
 #include <ricci/mesh/triangulation.h>
 #include <ricci/metric/circle_packing.h>
+#include <ricci/metric/geometry.h>
 
+#include <cmath>
 #include <vector>
 
 namespace ricci::testing {
@@ -49,6 +52,37 @@ std::vector<double> curvatureInSpace(const SurfaceMesh& mesh);
 /// Cone over a polygon with \p sides sides; a second, lower apex closes it.
 SurfaceMesh fan(int sides, double height);
 SurfaceMesh bipyramid(int sides, double height);
+
+/// A mesh on its way to the flow: glued, measured, with the radii of paper 4.1.
+struct Packed
+{
+	Triangulation triangulation;
+	EdgeArray<double> lengths;
+	VertexArray<double> radii;
+	EdgeArray<double> delta;
+
+	explicit Packed(const SurfaceMesh& mesh) : Packed(intrinsicMesh(mesh)) {}
+	Packed(const Triangulation& t, const EdgeArray<double>& l) :
+			triangulation(t), lengths(l), radii(initialRadii(t, l)),
+			delta(inversiveDistancesLessOne(t, l, radii))
+	{
+	}
+
+	VertexVector u() const
+	{
+		VertexVector u(radii.size());
+		for (const Vertex v : radii.indices())
+			u[v] = std::log(radii[v]);
+		return u;
+	}
+	GeometricCurvatureMap<Euclidean> map() const
+	{
+		return GeometricCurvatureMap<Euclidean>(triangulation, delta);
+	}
+
+private:
+	explicit Packed(const IntrinsicMesh& mesh) : Packed(mesh.triangulation, mesh.lengths) {}
+};
 
 } // namespace ricci::testing
 

@@ -3,7 +3,6 @@
 // tabs between the columns; the last column is the refusal, if there is one.
 #include "calls.h"
 #include "flat_map.h"
-#include "listener.h"
 #include "mesh_file.h"
 #include "vcg_mesh.h"
 
@@ -32,8 +31,7 @@ const char* const kUsage =
 	"  --refine             give the map on the common refinement (method flips)\n"
 	"  --packed             go on to the unit square; count overlaps there\n"
 	"  --margin M           between the charts, with --packed\n"
-	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
-	"  --verbose            the log on standard error\n";
+	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n";
 
 struct Arguments
 {
@@ -43,7 +41,6 @@ struct Arguments
 	std::string objFolder;
 	bool packed = false;
 	double margin = 0.0;
-	bool verbose = false;
 };
 
 [[noreturn]] void fail(const std::string& why)
@@ -108,8 +105,6 @@ Arguments parse(int argc, char** argv)
 			a.options.cones.distortion = std::atof(value().c_str());
 		else if (word == "--obj")
 			a.objFolder = value();
-		else if (word == "--verbose")
-			a.verbose = true;
 		else if (word.rfind("--", 0) == 0)
 			fail("Unknown option: " + word);
 		else
@@ -151,12 +146,11 @@ void draw(const FlatMesh& map, const std::vector<Point3>& positions, Outcome& ou
 		}
 }
 
-Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+Outcome runCore(const SurfaceMesh& mesh, const Options& options)
 {
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const WholeMap whole =
-		testing::withListener(progress, [&] { return chartsInPlane(mesh, {}, options); });
+	const WholeMap whole = chartsInPlane(mesh, {}, options);
 	const Parametrization& flat = whole.map;
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
@@ -166,19 +160,17 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 }
 
 /// The same by the facade for vcglib, which packs the charts.
-Outcome
-runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, Progress& progress)
+Outcome runPacked(const SurfaceMesh& mesh, const Options& options, double margin)
 {
 	using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
 	testing::DoubleMesh m;
 	testing::toVcg(mesh, m);
 	Flow::Params params;
 	static_cast<Options&>(params) = options;
-	params.chartMargin = a.margin;
+	params.chartMargin = margin;
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Flow::Result flat =
-		testing::withListener(progress, [&] { return Flow::Compute(m, params); });
+	const Flow::Result flat = Flow::Compute(m, params);
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	const OpenedMesh opened = openMesh(mesh);
@@ -228,18 +220,7 @@ bool addRow(
 		std::fflush(stdout);
 		Options options = a.options;
 		options.target = target;
-		struct : Progress
-		{
-			void log(const std::string& line) override
-			{
-				if (isVerbose)
-					std::cerr << "  " << line << "\n";
-			}
-			bool isVerbose = false;
-		} listener;
-		listener.isVerbose = a.verbose;
-		const Outcome out =
-			a.packed ? runPacked(mesh, options, a, listener) : runCore(mesh, options, listener);
+		const Outcome out = a.packed ? runPacked(mesh, options, a.margin) : runCore(mesh, options);
 		printResult(out, a.packed);
 		if (!a.objFolder.empty())
 			testing::writeObj(

@@ -2,7 +2,6 @@
 #ifndef RICCI_TESTS_RANDOM_H
 #define RICCI_TESTS_RANDOM_H
 
-#include <array>
 #include <cstdint>
 #include <random>
 #include <utility>

@@ -4,6 +4,7 @@
 #include "shapes.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace ricci::testing {
 
@@ -92,6 +93,29 @@ std::vector<SurfaceMesh> surfacesOfEveryKind(Random& random)
 	meshes.push_back(bumpyTorus(14, 9, random));
 	meshes.push_back(ring(1, 4, 12, 5));
 	return meshes;
+}
+
+Renumbered renumbered(const SurfaceMesh& mesh, Random& random)
+{
+	Renumbered result;
+	result.vertex.resize(mesh.positions.size());
+	result.face.resize(mesh.triangles.size());
+	std::iota(result.vertex.begin(), result.vertex.end(), 0);
+	std::iota(result.face.begin(), result.face.end(), 0);
+	random.shuffle(result.vertex);
+	random.shuffle(result.face);
+	std::vector<int> place(mesh.positions.size());
+	for (std::size_t i = 0; i < result.vertex.size(); ++i) {
+		place[at(result.vertex[i])] = static_cast<int>(i);
+		result.mesh.positions.push_back(mesh.positions[at(result.vertex[i])]);
+	}
+	for (int f : result.face) {
+		const Triangle& t = mesh.triangles[at(f)];
+		const std::size_t turn = at(random.index(3));
+		result.mesh.triangles.push_back(
+			{place[at(t[turn])], place[at(t[(turn + 1) % 3])], place[at(t[(turn + 2) % 3])]});
+	}
+	return result;
 }
 
 } // namespace ricci::testing

@@ -35,6 +35,16 @@ std::vector<SurfaceMesh> surfacesOfEveryKind(Random& random);
 /// random.
 void swapDiagonalsAtRandom(SurfaceMesh& mesh, Random& random);
 
+/// The same surface with other numbers: new vertex i was \p vertex[i], new face f was \p face[f],
+/// whose corners are rotated as well.
+struct Renumbered
+{
+	SurfaceMesh mesh;
+	std::vector<int> vertex, face;
+};
+
+Renumbered renumbered(const SurfaceMesh& mesh, Random& random);
+
 } // namespace ricci::testing
 
 #endif

@@ -333,4 +333,41 @@ SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t
 	return part;
 }
 
+SurfaceMesh scaled(SurfaceMesh mesh, double factor)
+{
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			x *= factor;
+	return mesh;
+}
+
+SurfaceMesh inFloats(SurfaceMesh mesh)
+{
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			x = static_cast<double>(static_cast<float>(x));
+	return mesh;
+}
+
+SurfaceMesh turned(SurfaceMesh mesh, const std::array<double, 3>& angles)
+{
+	for (Point3& p : mesh.positions)
+		for (std::size_t axis = 0; axis < 3; ++axis) {
+			const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+			const double c = std::cos(angles[axis]), s = std::sin(angles[axis]);
+			const double x = p[u], y = p[v];
+			p[u] = c * x - s * y;
+			p[v] = s * x + c * y;
+		}
+	return mesh;
+}
+
+SurfaceMesh screw(double turns, int around, int across, double pitch)
+{
+	return grid(across, around, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double r = 1.0 + static_cast<double>(i) / across, a = 2 * kPi * turns * j / around;
+		return Point3{r * std::cos(a), r * std::sin(a), pitch * a};
+	});
+}
+
 } // namespace ricci::testing

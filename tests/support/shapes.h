@@ -105,6 +105,17 @@ SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertic
 /// The faces of \p mesh for which isKept(face), with their vertices in the order of these.
 SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t)>& isKept);
 
+SurfaceMesh scaled(SurfaceMesh mesh, double factor);
+
+/// Coordinates as floats hold them.
+SurfaceMesh inFloats(SurfaceMesh mesh);
+
+/// Turned by \p angles about x, then y, then z (radians).
+SurfaceMesh turned(SurfaceMesh mesh, const std::array<double, 3>& angles);
+
+/// A ring between radii 1 and 2 that goes round by \p turns, in the plane or along a screw of this \p pitch.
+SurfaceMesh screw(double turns, int around, int across, double pitch = 0.0);
+
 } // namespace ricci::testing
 
 #endif

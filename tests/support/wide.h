@@ -4,6 +4,7 @@
 
 #include "ricci/numerics/double_double.h"
 
+#include <cmath>
 #include <complex>
 #include <limits>
 
@@ -24,6 +25,21 @@ inline long double wide(DoubleDouble x)
 inline std::complex<long double> wide(const ExtendedComplex& z)
 {
 	return {wide(z.real()), wide(z.imag())};
+}
+
+using WideComplex = std::complex<long double>;
+
+/// Hyperbolic distance of two points of the Poincaré disk.
+inline long double distanceInDisk(WideComplex z, WideComplex w)
+{
+	return 2 * std::atanh(std::abs((z - w) / (1.0L - std::conj(w) * z)));
+}
+
+/// Angle at p of the geodesic triangle pqr, in [0, pi].
+inline long double angleInDisk(WideComplex p, WideComplex q, WideComplex r)
+{
+	const auto seen = [&](WideComplex z) { return (z - p) / (1.0L - std::conj(p) * z); };
+	return std::abs(std::arg(seen(r) / seen(q)));
 }
 
 } // namespace ricci::testing

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_TESTS_SIEGEL_DISTANCE_H
-#define RICCI_TESTS_SIEGEL_DISTANCE_H
+// Solvers of Eigen that take the compiler seconds, compiled once, and what is found of period matrices with them.
+#ifndef RICCI_TESTS_MATRICES_H
+#define RICCI_TESTS_MATRICES_H
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace ricci::testing {
+
+/// The x of least norm with \p matrix x = \p right, or nearest to it.
+Eigen::MatrixXd leastNormSolution(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+
+/// Of a symmetric matrix, in increasing order.
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
 
 inline void expectPeriodMatrix(const Eigen::MatrixXcd& omega, Eigen::Index genus)
 {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "siegel_distance.h"
+#include "matrices.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,17 @@ Eigen::MatrixXcd omegaOfPolygon(int sides)
 		}
 	}
 	return b * a.inverse();
+}
+
+Eigen::MatrixXd leastNormSolution(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right)
+{
+	return matrix.completeOrthogonalDecomposition().solve(right);
+}
+
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix)
+{
+	return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+		.eigenvalues();
 }
 
 } // namespace ricci::testing
