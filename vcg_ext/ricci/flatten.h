@@ -49,13 +49,17 @@ Parametrization flattenToDisk(
 /// and a flow that has to spread that curvature over the surface distorts what could lie flat. The component
 /// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
 /// across creases again where they fit: a crease carries no curvature, only its corners do, so that
-/// joining distorts nothing. Creases are all edges above one of several angles, each of which is tried; the map
-/// that costs least is taken (MapCost).
+/// joining distorts nothing. Creases are all edges above an angle.
 /// \param maxBetween share of the curvature that may be left between creases
+/// \param first the map at the first angle, which is compared with those at other angles then (MapCost); without it
+///        that map is made
 /// \return none where more is left, there are no creases, or there is no memory for it (Task::memoryLimit())
 /// \throw what the stages throw
-std::optional<Parametrization>
-unfold(const Component& component, const Options& options, double maxBetween);
+std::optional<Parametrization> unfold(
+	const Component& component,
+	const Options& options,
+	double maxBetween,
+	std::optional<Parametrization> first = std::nullopt);
 
 /// The charts of a component, without overlap unless they are to be those of the flow: Automatic takes the flow's or,
 /// where that costs less, those of the surface unfolded between its creases. Where the component has a map that is

@@ -109,49 +109,65 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	return map;
 }
 
-} // namespace
-
-std::optional<Parametrization>
-unfold(const Component& component, const Options& options, double maxBetween)
+/// What the component is divided into between its creases: the first way, or the others.
+std::vector<std::vector<Component>>
+divisions(const Component& component, double maxBetween, bool isFirst)
 {
-	std::vector<std::vector<Component>> divisions; // the pieces
-	std::set<int> edges;                           // numbers of creases
-	const std::vector<Point3>& positions = component.positions.values();
+	std::vector<std::vector<Component>> divisions;
+	std::set<int> edges; // numbers of creases
+	double first = 0.0;  // pieces
 	const Sides sides(component.triangles);
 	for (const double angle : kCreaseAngles) {
-		const Creases found = creases(positions, component.triangles, sides, angle);
+		const Creases found =
+			creases(component.positions.values(), component.triangles, sides, angle);
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
-		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
+		if (first == 0.0 && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper
 		if (isBent || !edges.insert(found.edges).second) // more creases contain fewer
 			continue;
 		std::vector<Component> all = pieces(component, found);
 		const auto count = static_cast<double>(all.size());
-		if (!all.empty() &&
-			(divisions.empty() ||
-			 count <= std::max(kManyPieces, kRough * static_cast<double>(divisions[0].size()))))
+		if (all.empty() || (first > 0.0 && count > std::max(kManyPieces, kRough * first)))
+			continue;
+		if ((first == 0.0) == isFirst)
 			divisions.push_back(std::move(all));
+		if (first == 0.0)
+			first = count;
+		if (isFirst)
+			break;
 	}
-	std::vector<std::optional<Parametrization>> maps(divisions.size());
-	std::vector<std::vector<std::string>> lines(divisions.size()); // of the log
-	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
-	if (atOnce == 0 && !maps.empty()) {
+	return divisions;
+}
+
+} // namespace
+
+std::optional<Parametrization> unfold(
+	const Component& component,
+	const Options& options,
+	double maxBetween,
+	std::optional<Parametrization> first)
+{
+	const auto ways = divisions(component, maxBetween, !first);
+	std::vector<std::optional<Parametrization>> maps(ways.size());
+	std::vector<std::vector<std::string>> lines(ways.size()); // of the log
+	const auto count = static_cast<int>(ways.size());
+	const int atOnce = mapsAtOnce(count, component.triangles.size());
+	if (atOnce == 0 && count > 0) {
 		logLine("There is not enough memory to also unfold the surface between its creases.");
-		return std::nullopt;
+		return first;
 	}
-	const auto count = static_cast<int>(maps.size());
 	tasksInParallel(count, atOnce, [&](int i) {
 		Task part(double(i) / count, (i + 1.0) / count);
 		part.keepLines(lines[positionOf(i)]);
 		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
 			const Task silent(0.0, 1.0, true);
-			return joined(component, divisions[positionOf(i)], options);
+			return joined(component, ways[positionOf(i)], options);
 		});
 	});
 	for (const std::vector<std::string>& own : lines)
 		logLines(own);
-	std::optional<Parametrization> best;
-	int steps = 0; // Newton's
+	std::optional<Parametrization> best = std::move(first);
+	int steps = best ? best->report.iterations : 0; // Newton's
 	for (std::optional<Parametrization>& map : maps) {
 		steps += map ? map->report.iterations : 0;
 		if (map && (!best || costOf(*map).total() < costOf(*best).total()))
