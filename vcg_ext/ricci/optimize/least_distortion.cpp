@@ -145,8 +145,8 @@ void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x
 namespace {
 
 /// The steps end when two in a row gain less than this change of K in all triangles is worth: it is not seen in the
-/// fourth decimal of a mean.
-constexpr double kSeen = 2.5e-5;
+/// third decimal of a mean.
+constexpr double kSeen = 1e-4;
 
 /// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.
 constexpr int kDepth = 5, kSameStiffness = 8;
