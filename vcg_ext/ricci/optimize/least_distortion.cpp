@@ -150,7 +150,7 @@ constexpr double kSeen = 1e-4;
 
 /// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.
 constexpr int kDepth = 5, kSameStiffness = 8;
-constexpr double kResidual = 0.1;
+constexpr double kResidual = 0.3;
 
 constexpr double kMinStep = 1e-6;
 
