@@ -266,7 +266,7 @@ TEST(Unfolded, ABoxIsItsNet)
 		EXPECT_NEAR(std::abs(k - 0.25 * kPi), 0.25 * kPi, 1e-9); // 0 or pi / 2
 	}
 	EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
-	EXPECT_EQ(FlatMap(mesh, map.uv).seamEdges, map.report.seamEdges + map.report.overlapCuts);
+	EXPECT_EQ(MapCheck(mesh, map).seamEdges, map.report.seamEdges + map.report.overlapCuts);
 }
 
 /// Wall, bottom and lid of a cylinder touch in one edge each then.

@@ -4,7 +4,6 @@
 #include "support/flat_map.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/refinement_check.h"
 #include "support/shapes.h"
 
 #include <array>
@@ -88,8 +87,8 @@ TEST(Components, IndicesOfTheRefinedPointsOfSeveralComponents)
 	const SurfaceMesh mesh = threeComponents(random);
 	const FlatResult map = run(mesh, refined());
 	expectIndicesOfSeveralComponents(mesh, map);
-	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);
-	check.expectValid(0 - 2 + 1, 1);
+	const MapCheck check(mesh, map);
+	expectSurface(check, 0 - 2 + 1, 1);
 	EXPECT_LT(check.areaError, 1e-12);
 	EXPECT_LT(check.angleError, 1e-6);
 	// The same with faces of both orders, whose pieces have the order of their faces.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
-#include "support/flat_map.h"
+#include "support/front_door.h"
 #include "support/random.h"
 
 #include <array>
@@ -49,8 +49,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 			EXPECT_EQ(flat.report.cappedHoles, 0);
 			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
 			EXPECT_EQ(flat.report.flippedFaces, 0);
-			const FlatMap map(mesh, flat.uv);
-			EXPECT_LT(map.seamMismatch, 1e-10);
+			EXPECT_LT(MapCheck(mesh, flat).seamMismatch, 1e-10);
 			if (height > 0.0)
 				continue;
 			EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
@@ -97,8 +96,7 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 			// Holes close by rotation and translation.
 			expectOnePlaceEach(mesh, flat.uv);
 			// The chart is flat inside, and its boundary keeps its lengths where it is free.
-			const FlatMap map(mesh, flat.uv);
-			EXPECT_LT(map.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+			EXPECT_LT(MapCheck(mesh, flat.mesh, {}).angleError, 1e-9);
 		}
 }
 
@@ -124,7 +122,7 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 	const SurfaceMesh mesh = perforated(16, 0.2);
 	const auto vertex = [](int i, int j) { return i * 17 + j; };
 	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
-	ASSERT_TRUE(FlatMap(mesh, UV(mesh.triangles.size())).boundary[at(rim)]);
+	ASSERT_TRUE(boundaryOf(mesh)[at(rim)]);
 	VertexInput input = selecting(mesh, {rim});
 	Options options = capped();
 	options.target = TargetCurvature::SelectedCones;
@@ -240,7 +238,7 @@ TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
 	EXPECT_NEAR(total, 4 * kPi, 1e-9);
 	EXPECT_EQ(flat.report.flippedFaces, 0);
 	EXPECT_EQ(flat.report.overlappingFaces, 0);
-	EXPECT_LT(FlatMap(mesh, flat.uv).seamMismatch, 1e-6);
+	EXPECT_LT(MapCheck(mesh, flat).seamMismatch, 1e-6);
 }
 
 } // namespace

@@ -2,10 +2,10 @@
 // The overlay of the input's and the flow's triangles, where the map on it is known. corner_layout_test.cpp and
 // sliver_surfaces_test.cpp have what else it is.
 #include "support/complex.h"
+#include "support/expect.h"
 #include "support/front_door.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
-#include "support/refinement_check.h"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ Parametrization refined(const SurfaceMesh& mesh, const std::vector<double>& want
 /// A surface of the input's kind, whose metric in the plane is flat except for the cones.
 void expectValid(const SurfaceMesh& mesh, const Parametrization& map)
 {
-	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);
-	check.expectValid(
+	const MapCheck check(mesh, map);
+	expectSurface(check, 
 		map.report.eulerCharacteristic, map.report.boundaryLoops, map.report.maxCurvatureError);
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_LT(check.angleError, 1e-8);
