@@ -35,8 +35,11 @@ Parametrization refined(const SurfaceMesh& mesh, const std::vector<double>& want
 void expectValid(const SurfaceMesh& mesh, const Parametrization& map)
 {
 	const MapCheck check(mesh, map);
-	expectSurface(check, 
-		map.report.eulerCharacteristic, map.report.boundaryLoops, map.report.maxCurvatureError);
+	expectSurface(
+		check,
+		map.report.eulerCharacteristic,
+		map.report.boundaryLoops,
+		map.report.maxCurvatureError);
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_LT(check.angleError, 1e-8);
 	if (map.report.boundaryRatioMin) { // free boundaries keep their lengths

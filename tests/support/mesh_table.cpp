@@ -164,17 +164,15 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options)
 }
 
 /// The same by the facade for vcglib, which packs the charts.
-Outcome runPacked(const SurfaceMesh& mesh, const Options& options, double margin)
+Outcome runPacked(const SurfaceMesh& mesh, Options options, double margin)
 {
 	using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
 	testing::DoubleMesh m;
 	testing::toVcg(mesh, m);
-	Flow::Params params;
-	static_cast<Options&>(params) = options;
-	params.chartMargin = margin;
+	options.chartMargin = margin;
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Flow::Result flat = Flow::Compute(m, params);
+	const Flow::Result flat = Flow::Compute(m, options);
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	const OpenedMesh opened = openMesh(mesh);

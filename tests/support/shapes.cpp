@@ -221,13 +221,12 @@ SurfaceMesh perforatedSlab(int genus, int subdivision)
 	return mesh;
 }
 
-SurfaceMesh book(int sheets, int n)
+SurfaceMesh bookOf(const std::vector<Page>& sheets, int n)
 {
 	SurfaceMesh mesh;
 	for (int j = 0; j <= n; ++j)
 		mesh.positions.push_back({0.0, 0.0, double(j)});
-	for (int s = 0; s < sheets; ++s) {
-		const double angle = 2 * kPi * s / sheets;
+	for (const auto& [angle, isTurned] : sheets) {
 		const int first = static_cast<int>(mesh.positions.size());
 		for (int i = 1; i <= n; ++i)
 			for (int j = 0; j <= n; ++j)
@@ -236,12 +235,20 @@ SurfaceMesh book(int sheets, int n)
 			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
 		};
 		for (Triangle t : cells(n, n, vertex)) {
-			if (2 * s >= sheets)
-				std::swap(t[1], t[2]);
+			if (isTurned)
+				std::swap(t[0], t[1]);
 			mesh.triangles.push_back(t);
 		}
 	}
 	return mesh;
+}
+
+SurfaceMesh book(int sheets, int n)
+{
+	std::vector<Page> all;
+	for (int s = 0; s < sheets; ++s)
+		all.push_back({2 * kPi * s / sheets, 2 * s >= sheets});
+	return bookOf(all, n);
 }
 
 SurfaceMesh kleinBottle(int nu, int nv, const std::function<Point3(int, int)>& point)

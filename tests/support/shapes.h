@@ -77,6 +77,14 @@ SurfaceMesh tetrahedron();
 /// \p genus separate cubes taken out; each square is cut into 2 (subdivision)^2 triangles.
 SurfaceMesh perforatedSlab(int genus, int subdivision);
 
+/// Rectangles of n by n unit cells with one side in common, on the z axis, at these angles.
+struct Page
+{
+	double angle;
+	bool isTurned; ///< orientation
+};
+SurfaceMesh bookOf(const std::vector<Page>& sheets, int n);
+
 /// \p sheets rectangles of n by n unit cells with one side in common, on the z axis, at equal angles. The
 /// second half of them has the orientation that the first half has once it is past that side.
 SurfaceMesh book(int sheets, int n);
