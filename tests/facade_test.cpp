@@ -144,7 +144,8 @@ TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
 	m.vert[0].Q() += Quality(0.01);
 	const auto par = fixedTriangulation(TargetCurvature::Prescribed);
 	EXPECT_EQ(
-		refusalOf<InadmissibleCurvature>([&] { compute(m, par); }).problem, InadmissibleCurvature::GaussBonnet);
+		refusalOf<InadmissibleCurvature>([&] { compute(m, par); }).problem,
+		InadmissibleCurvature::GaussBonnet);
 }
 
 TYPED_TEST(Facade, ReadsTheSelection)

@@ -13,11 +13,7 @@ namespace {
 SurfaceMesh perforated(int n, double height)
 {
 	const auto vertex = [&](int i, int j) { return i * (n + 1) + j; };
-	const SurfaceMesh whole = grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
-		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
-		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
-	});
-	return withoutStars(whole, {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
+	return withoutStars(hill(n, height), {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
 }
 
 Options capped()
@@ -149,11 +145,8 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 SurfaceMesh withPinHoles()
 {
 	const auto vertex = [](int i, int j) { return i * 81 + j; };
-	const SurfaceMesh whole = grid(80, 80, Ends::Open, Ends::Open, [](int i, int j) {
-		const double x = i / 80.0, y = j / 80.0;
-		return Point3{x, y, 0.15 * std::sin(3 * x + 1) * std::cos(4 * y)};
-	});
-	return withoutStars(whole, {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
+	return withoutStars(
+		hill(80, 0.15), {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
 }
 
 TEST(ShortHoles, AreCappedByDefault)
@@ -232,10 +225,7 @@ TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
 	const FlatResult flat = run(mesh, Options());
 	EXPECT_EQ(flat.report.boundaryLoops, 2);
 	EXPECT_EQ(flat.report.cappedHoles, 2);
-	double total = 0.0;
-	for (const double k : flat.targetCurvature)
-		total += k;
-	EXPECT_NEAR(total, 4 * kPi, 1e-9);
+	EXPECT_NEAR(sum(flat.targetCurvature), 4 * kPi, 1e-9);
 	EXPECT_EQ(flat.report.flippedFaces, 0);
 	EXPECT_EQ(flat.report.overlappingFaces, 0);
 	EXPECT_LT(MapCheck(mesh, flat).seamMismatch, 1e-6);

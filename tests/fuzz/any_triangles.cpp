@@ -5,7 +5,6 @@
 
 #include <ricci/base/numbers.h>
 
-#include <cmath>
 #include <utility>
 
 namespace ricci::testing {

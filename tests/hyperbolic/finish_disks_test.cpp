@@ -67,8 +67,7 @@ TEST(DivideDisks, MovesFarPartsByIsometries)
 		const Chart& chart = map.charts[positionOf(map.mesh.chart[f])];
 		EXPECT_EQ(chart.middle, map.mesh.chart[f] == 0 ? -1 : 0);
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 moved =
-				asPoint(Complex(chart.place(asComplex(whole.mesh.at(f)[k]))));
+			const Point2 moved = asPoint(Complex(chart.place(asComplex(whole.mesh.at(f)[k]))));
 			EXPECT_LT(distance(map.mesh.at(f)[k], moved), 1e-15);
 		}
 	}

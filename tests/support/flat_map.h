@@ -57,7 +57,8 @@ struct CoveredTwice
 
 	/// \param uv in the unit square; taken as floats. Faces that are flipped, or have no area,
 	/// are left out.
-	CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vector<char>& reversed);
+	/// \param reversed [face]; empty: none
+	CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vector<char>& reversed = {});
 };
 
 /// Pairs of triangles of one chart that cover a part of the plane together.

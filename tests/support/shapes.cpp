@@ -55,6 +55,14 @@ SurfaceMesh rectangle(int nx, int ny, double width, double height)
 	});
 }
 
+SurfaceMesh hill(int n, double height)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+}
+
 SurfaceMesh bumpyPatch(int n)
 {
 	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
@@ -342,9 +350,14 @@ SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t
 
 SurfaceMesh scaled(SurfaceMesh mesh, double factor)
 {
+	return stretched(std::move(mesh), {factor, factor, factor});
+}
+
+SurfaceMesh stretched(SurfaceMesh mesh, const Point3& factors)
+{
 	for (Point3& p : mesh.positions)
-		for (double& x : p)
-			x *= factor;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] *= factors[k];
 	return mesh;
 }
 
