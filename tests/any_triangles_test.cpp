@@ -52,13 +52,6 @@ void expectLaidFlat(const SurfaceMesh& mesh, OutputTriangulation output, const F
 		expectIsometric(mesh, wedgesOf(r), r.report);
 }
 
-SurfaceMesh bumpySheet(int n)
-{
-	return grid(n, n, Ends::Open, Ends::Open, [](int i, int j) {
-		return Point3{double(i), double(j), std::sin(0.9 * i) * std::cos(0.7 * j)};
-	});
-}
-
 TEST(AnyTriangles, UnconnectedTrianglesAreDrawnAsTheyAre)
 {
 	Random random(1);
@@ -376,7 +369,7 @@ TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 	EXPECT_EQ(slab.componentFace, 1);
 	EXPECT_EQ(slab.componentFaces, faces);
 	// Of sheets that are disks each becomes a round one.
-	SurfaceMesh twice = bumpySheet(5);
+	SurfaceMesh twice = hill(5, 0.4);
 	for (std::size_t f = 0; f < 50; ++f)
 		twice.triangles.push_back(Triangle(twice.triangles[f]));
 	const auto r = compute(twice, disk);

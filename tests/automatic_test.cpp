@@ -177,10 +177,7 @@ TEST(KeptAreas, AreForFlipsAlone)
 /// A thin box of 1 x 3 x 1 / 10.
 SurfaceMesh plate()
 {
-	SurfaceMesh mesh = perforatedSlab(0, 4);
-	for (Point3& p : mesh.positions)
-		p[2] *= 0.1;
-	return mesh;
+	return stretched(perforatedSlab(0, 4), {1, 1, 0.1});
 }
 
 TEST(Automatic, IsReported)
@@ -266,7 +263,7 @@ TEST(Unfolded, ABoxIsItsNet)
 		EXPECT_NEAR(std::abs(k - 0.25 * kPi), 0.25 * kPi, 1e-9); // 0 or pi / 2
 	}
 	EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
-	EXPECT_EQ(FlatMap(mesh, map.uv).seamEdges, map.report.seamEdges + map.report.overlapCuts);
+	EXPECT_EQ(MapCheck(mesh, map).seamEdges, map.report.seamEdges + map.report.overlapCuts);
 }
 
 /// Wall, bottom and lid of a cylinder touch in one edge each then.
@@ -307,12 +304,10 @@ TEST(Unfolded, BoxesLieAlongTheAxes)
 {
 	Random random(20);
 	for (int i = 0; i < 20; ++i) {
-		const std::array<double, 3> size{
-			random.real(0.3, 3.0), random.real(0.3, 3.0), random.real(0.3, 3.0)};
-		SurfaceMesh box = perforatedSlab(0, 2);
-		for (Point3& p : box.positions)
-			p = {p[0] * size[0], p[1] * size[1], p[2] * size[2]};
-		box = turned(box, {random.real(-3, 3), random.real(-3, 3), random.real(-3, 3)});
+		const Point3 size{random.real(0.3, 3.0), random.real(0.3, 3.0), random.real(0.3, 3.0)};
+		const SurfaceMesh box = turned(
+			stretched(perforatedSlab(0, 2), size),
+			{random.real(-3, 3), random.real(-3, 3), random.real(-3, 3)});
 		EXPECT_NEAR(uprightShare(parametrizeEuclidean(box, {}, {}).mesh), 1.0, 1e-9);
 		Options asLaidOut;
 		asLaidOut.turns = ChartTurns::None;
@@ -382,9 +377,7 @@ TEST(Unfolded, WhatCostsLess)
 TEST(Unfolded, WhereThereIsMemory)
 {
 	for (const int subdivision : {2, 12}) {
-		SurfaceMesh mesh = perforatedSlab(0, subdivision);
-		for (Point3& p : mesh.positions)
-			p[2] *= 0.1;
+		const SurfaceMesh mesh = stretched(perforatedSlab(0, subdivision), {1, 1, 0.1});
 		const auto within = [&](double bytes, Listener& log) {
 			Task task(log);
 			task.setMemoryLimit(bytes);

@@ -2,7 +2,7 @@
 // Meshes of Debian's package libcgal-demo, clean and dirty, of many topologies: each is mapped
 // without a defect, or refused for a reason that holds.
 #include "support/intrinsic.h"
-#include "support/refinement_check.h"
+#include "support/map_check.h"
 #include "support/shapes.h"
 
 #include <ricci/whole_map.h>
@@ -141,7 +141,7 @@ std::string defectOf(const OpenedMap& opened, int& belowResolution)
 	const Parametrization& flat = opened.map;
 	const Report& report = flat.report;
 	const FlatMesh& mesh = flat.mesh;
-	const RefinementCheck check(opened.mesh, mesh, flat.targetCurvature);
+	const MapCheck check(opened.mesh, mesh, flat.targetCurvature);
 	std::vector<char> covered(opened.mesh.triangles.size(), 0);
 	for (int f : mesh.face)
 		covered[at(f)] = 1;

@@ -526,27 +526,21 @@ TEST(ChosenSeams, KeepTheSeamsOfAMap)
 	for (const SurfaceMesh& mesh : {sphere(12, 16), torus(3.0, 1.0, 14, 9), perforatedSlab(2, 2)}) {
 		DoubleMesh m;
 		toVcg(mesh, m);
-		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, Flow::Params()));
+		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, {}));
 		const Marks marks = Seams::OfTexture(m);
 		const VertexPairs before = insideEdges(mesh, marks);
 		ASSERT_FALSE(before.empty());
-		const auto r = Flow::Compute(m, Flow::Params(), marks);
+		const auto r = Flow::Compute(m, {}, marks);
 		expectCounts(mesh, before, r.report);
 		const VertexPairs after = jumps(mesh, r);
 		EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
-		const auto kept = Flow::Compute(m, Flow::Params(), Marks(), Flow::ReadMap(m));
+		const auto kept = Flow::Compute(m, {}, Marks(), Flow::ReadMap(m));
 		expectCounts(mesh, before, kept.report);
 		EXPECT_EQ(jumps(mesh, kept), before);
 		EXPECT_EQ(kept.report.seamEdges + kept.report.overlapCuts, 0);
-		const auto packed = Flow::Compute(
-			m,
-			[] {
-				Flow::Params params;
-				params.charts = Charts::AsGiven;
-				return params;
-			}(),
-			Marks(),
-			Flow::ReadMap(m));
+		Options asGiven;
+		asGiven.charts = Charts::AsGiven;
+		const auto packed = Flow::Compute(m, asGiven, Marks(), Flow::ReadMap(m));
 		EXPECT_EQ(jumps(mesh, packed), before);
 		EXPECT_EQ(packed.report.charts, kept.report.charts);
 	}

@@ -4,7 +4,6 @@
 #include "support/flat_map.h"
 #include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/refinement_check.h"
 #include "support/shapes.h"
 
 #include <array>
@@ -88,8 +87,8 @@ TEST(Components, IndicesOfTheRefinedPointsOfSeveralComponents)
 	const SurfaceMesh mesh = threeComponents(random);
 	const FlatResult map = run(mesh, refined());
 	expectIndicesOfSeveralComponents(mesh, map);
-	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);
-	check.expectValid(0 - 2 + 1, 1);
+	const MapCheck check(mesh, map);
+	expectSurface(check, 0 - 2 + 1, 1);
 	EXPECT_LT(check.areaError, 1e-12);
 	EXPECT_LT(check.angleError, 1e-6);
 	// The same with faces of both orders, whose pieces have the order of their faces.
@@ -280,9 +279,7 @@ TEST(Copies, MirrorImagesAreMirrored)
 	for (const std::array<std::size_t, 3>& order :
 		 {std::array<std::size_t, 3>{2, 1, 0}, {0, 2, 1}, {1, 0, 2}})
 		for (const bool isRefined : {false, true}) {
-			SurfaceMesh image = turned(one, {0.3, 1.1, -0.7});
-			for (Point3& p : image.positions)
-				p[0] = -p[0];
+			SurfaceMesh image = stretched(turned(one, {0.3, 1.1, -0.7}), {-1, 1, 1});
 			for (Triangle& t : image.triangles)
 				t = {t[order[0]], t[order[1]], t[order[2]]};
 			const SurfaceMesh two = sideBySide(one, image, 20);
@@ -307,7 +304,7 @@ TEST(Copies, MirrorImagesAreMirrored)
 		}
 }
 
-/// What is selected on one alone is not copied; neither is another size.
+/// What is selected on one alone is not copied; neither is a mirror image or another size.
 TEST(Copies, AreOnlyWhatIsEqual)
 {
 	Random random(78);
@@ -331,19 +328,10 @@ TEST(Copies, AreOnlyWhatIsEqual)
 	EXPECT_NEAR(other.targetCurvature[at(count + 15)], kPi, 1e-9);
 	EXPECT_NEAR(other.targetCurvature[at(count + 14)], 0.0, 1e-9);
 
-	// As long sides, but mirrored.
-	SurfaceMesh mirrored = one;
-	for (Point3& p : mirrored.positions)
-		p[0] = -p[0];
-	EXPECT_GT(
-		run(sideBySide(one, mirrored, 20), Options()).report.iterations,
-		run(one, Options()).report.iterations);
-
-	SurfaceMesh larger = one;
-	for (Point3& p : larger.positions)
-		p = 1.001 * p;
-	const Report report = run(sideBySide(one, larger, 20), Options()).report;
-	EXPECT_GT(report.iterations, run(one, Options()).report.iterations);
+	for (const SurfaceMesh& mesh : {stretched(one, {-1, 1, 1}), scaled(one, 1.001)})
+		EXPECT_GT(
+			run(sideBySide(one, mesh, 20), Options()).report.iterations,
+			run(one, Options()).report.iterations);
 }
 
 } // namespace

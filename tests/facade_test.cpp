@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
+#include "support/facade_runs.h"
+#include "support/flat_map.h"
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
-#include "support/vcg_mesh.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
@@ -28,45 +29,10 @@ class Facade : public ::testing::Test
 using Meshes = ::testing::Types<FloatMesh, DoubleMesh>;
 TYPED_TEST_SUITE(Facade, Meshes);
 
-/// A mesh whose every field holds something.
 template<class Mesh>
-void fill(const SurfaceMesh& shape, Mesh& m)
-{
-	toVcg(shape, m);
-	int i = 0;
-	for (auto& v : m.vert) {
-		v.Q() = typename Mesh::VertexType::QualityType(0.25 * ++i);
-		v.N() = typename Mesh::CoordType(1, 2, 3);
-	}
-	for (auto& f : m.face)
-		for (int k = 0; k < 3; ++k) {
-			f.WT(k).U() = 0.125f * static_cast<float>(++i);
-			f.WT(k).V() = -1.0f;
-			f.WT(k).N() = 3;
-		}
-}
-
-template<class Mesh>
-typename FlowOf<Mesh>::Params
-onFixedTriangulation(TargetCurvature target = TargetCurvature::Automatic)
-{
-	typename FlowOf<Mesh>::Params par;
-	par.target = target;
-	par.method = Method::FixedTriangles;
-	return par;
-}
-
-template<class Mesh>
-typename FlowOf<Mesh>::Result compute(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
+Parametrization compute(const Mesh& m, const Options& par)
 {
 	return FlowOf<Mesh>::Compute(m, par);
-}
-
-/// The error of type \p Refusal that Compute() throws.
-template<class Refusal, class Mesh>
-Refusal refusalWith(const Mesh& m, const typename FlowOf<Mesh>::Params& par)
-{
-	return errorOf<Refusal>([&] { compute(m, par); }).value(); // throws if the mesh is accepted
 }
 
 TYPED_TEST(Facade, MatchesTheCore)
@@ -74,7 +40,7 @@ TYPED_TEST(Facade, MatchesTheCore)
 	Random random(302);
 	TypeParam m;
 	toVcg(bumpyTorus(12, 8, random), m);
-	const auto par = onFixedTriangulation<TypeParam>();
+	const auto par = fixedTriangulation();
 	const auto result = compute(m, par);
 	const auto core = parametrizeEuclidean(fromVcg(m), {}, par);
 	EXPECT_EQ(result.report.qcMean, core.report.qcMean);
@@ -98,7 +64,7 @@ TYPED_TEST(Facade, SixDecimalsTurnNoTriangleRound)
 	});
 	TypeParam m;
 	toVcg(slivers, m);
-	typename FlowOf<TypeParam>::Params par;
+	Options par;
 	par.normalizeUV = true;
 	const auto turnedInText = [&](const auto& map) {
 		int turned = 0;
@@ -127,8 +93,8 @@ TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)
 {
 	Random random(303);
 	TypeParam m;
-	fill(bumpyTorus(12, 8, random), m);
-	const auto result = compute(m, onFixedTriangulation<TypeParam>());
+	build(bumpyTorus(12, 8, random), m);
+	const auto result = compute(m, fixedTriangulation());
 	FlowOf<TypeParam>::WriteWedgeTexCoord(m, result);
 	FlowOf<TypeParam>::WriteVertexQuality(m, result);
 	const std::vector<Triangle2> wedges = wedgesOf(result);
@@ -168,7 +134,7 @@ TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
 	using Quality = typename TypeParam::VertexType::QualityType;
 	for (std::size_t v = 0; v < m.vert.size(); ++v)
 		m.vert[v].Q() = static_cast<Quality>(wanted[v] - sum / static_cast<double>(m.vert.size()));
-	const auto result = compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed));
+	const auto result = compute(m, fixedTriangulation(TargetCurvature::Prescribed));
 	for (std::size_t v = 0; v < m.vert.size(); ++v)
 		EXPECT_NEAR(
 			result.targetCurvature[v],
@@ -176,9 +142,10 @@ TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
 			100 * double(std::numeric_limits<Quality>::epsilon()));
 	// An error beyond rounding is not spread.
 	m.vert[0].Q() += Quality(0.01);
-	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed);
+	const auto par = fixedTriangulation(TargetCurvature::Prescribed);
 	EXPECT_EQ(
-		refusalWith<InadmissibleCurvature>(m, par).problem, InadmissibleCurvature::GaussBonnet);
+		refusalOf<InadmissibleCurvature>([&] { compute(m, par); }).problem,
+		InadmissibleCurvature::GaussBonnet);
 }
 
 TYPED_TEST(Facade, ReadsTheSelection)
@@ -187,15 +154,15 @@ TYPED_TEST(Facade, ReadsTheSelection)
 	toVcg(rectangle(6, 4, 6, 4), m);
 	for (int v : {0, 4, 30, 34})
 		m.vert[at(v)].SetS();
-	const auto result = compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle));
+	const auto result = compute(m, fixedTriangulation(TargetCurvature::Rectangle));
 	for (int v = 0; v < 35; ++v)
 		EXPECT_EQ(
 			result.targetCurvature[at(v)], v == 0 || v == 4 || v == 30 || v == 34 ? kPi / 2 : 0.0);
 	ASSERT_TRUE(result.report.rectangleAspect);
 	EXPECT_NEAR(*result.report.rectangleAspect, 1.5, 1e-6);
 	m.vert[0].ClearS();
-	const auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle);
-	const auto refusal = refusalWith<InvalidOption>(m, par);
+	const auto par = fixedTriangulation(TargetCurvature::Rectangle);
+	const auto refusal = refusalOf<InvalidOption>([&] { compute(m, par); });
 	EXPECT_EQ(refusal.problem, InvalidOption::CornerCount);
 	EXPECT_EQ(refusal.count, 3u);
 }
@@ -214,8 +181,8 @@ TYPED_TEST(Facade, DeletedElementsTakeNoPart)
 		vcg::tri::Allocator<TypeParam>::DeleteFace(dirty, dirty.face[f]);
 	for (std::size_t v = 0; v < 4; ++v)
 		vcg::tri::Allocator<TypeParam>::DeleteVertex(dirty, dirty.vert[v]);
-	const auto a = compute(clean, onFixedTriangulation<TypeParam>());
-	const auto b = compute(dirty, onFixedTriangulation<TypeParam>());
+	const auto a = compute(clean, fixedTriangulation());
+	const auto b = compute(dirty, fixedTriangulation());
 	EXPECT_EQ(a.report.qcMean, b.report.qcMean);
 	EXPECT_EQ(a.mesh.corners(), b.mesh.corners());
 	for (const int f : a.mesh.face.indices())
@@ -233,7 +200,7 @@ TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
 	toVcg(tetrahedron(), other);
 	const auto refused = [&](const char* beginning, std::size_t faces) {
 		const auto before = contents(m);
-		const auto refusal = refusalWith<InvalidMesh>(m, onFixedTriangulation<TypeParam>());
+		const auto refusal = refusalOf<InvalidMesh>([&] { compute(m, fixedTriangulation()); });
 		EXPECT_EQ(refusal.problem, InvalidMesh::DamagedFaces);
 		EXPECT_EQ(refusal.count, faces);
 		EXPECT_EQ(std::string(refusal.what()).rfind(beginning, 0), 0u) << refusal.what();
@@ -254,7 +221,7 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 	Random random(307);
 	TypeParam m, flat;
 	toVcg(bumpyTorus(12, 8, random), m);
-	auto par = onFixedTriangulation<TypeParam>();
+	auto par = fixedTriangulation();
 	par.charts = Charts::WithoutOverlap;
 	const auto result = compute(m, par);
 	LayersOf<TypeParam>::BuildFlatMesh(result, flat);
@@ -321,7 +288,7 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 	for (const auto& v : m.vert)
 		places.push_back(v.cP());
 
-	typename FlowOf<TypeParam>::Params params;
+	Options params;
 	params.output = OutputTriangulation::CommonRefinement;
 	const auto result = compute(m, params);
 	ASSERT_GT(result.report.refinementPoints, 0);

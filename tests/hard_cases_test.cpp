@@ -6,7 +6,6 @@
 #include "support/front_door.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
-#include "support/refinement_check.h"
 
 #include <map>
 #include <utility>
@@ -47,8 +46,11 @@ void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexI
 	for (const auto& triangle : flat.uv)
 		for (const Point2& p : triangle)
 			EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
-	RefinementCheck(mesh, flat.mesh, flat.targetCurvature)
-		.expectValid(report.eulerCharacteristic, report.boundaryLoops, report.maxCurvatureError);
+	expectSurface(
+		MapCheck(mesh, flat),
+		report.eulerCharacteristic,
+		report.boundaryLoops,
+		report.maxCurvatureError);
 	std::vector<char> covered(mesh.triangles.size(), 0);
 	for (int f : flat.mesh.face)
 		covered[at(f)] = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
-#include "support/flat_map.h"
+#include "support/front_door.h"
 #include "support/random.h"
 
 #include <array>
@@ -13,11 +13,7 @@ namespace {
 SurfaceMesh perforated(int n, double height)
 {
 	const auto vertex = [&](int i, int j) { return i * (n + 1) + j; };
-	const SurfaceMesh whole = grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
-		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
-		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
-	});
-	return withoutStars(whole, {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
+	return withoutStars(hill(n, height), {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
 }
 
 Options capped()
@@ -49,8 +45,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 			EXPECT_EQ(flat.report.cappedHoles, 0);
 			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
 			EXPECT_EQ(flat.report.flippedFaces, 0);
-			const FlatMap map(mesh, flat.uv);
-			EXPECT_LT(map.seamMismatch, 1e-10);
+			EXPECT_LT(MapCheck(mesh, flat).seamMismatch, 1e-10);
 			if (height > 0.0)
 				continue;
 			EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
@@ -97,8 +92,7 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 			// Holes close by rotation and translation.
 			expectOnePlaceEach(mesh, flat.uv);
 			// The chart is flat inside, and its boundary keeps its lengths where it is free.
-			const FlatMap map(mesh, flat.uv);
-			EXPECT_LT(map.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+			EXPECT_LT(MapCheck(mesh, flat.mesh, {}).angleError, 1e-9);
 		}
 }
 
@@ -124,7 +118,7 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 	const SurfaceMesh mesh = perforated(16, 0.2);
 	const auto vertex = [](int i, int j) { return i * 17 + j; };
 	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
-	ASSERT_TRUE(FlatMap(mesh, UV(mesh.triangles.size())).boundary[at(rim)]);
+	ASSERT_TRUE(boundaryOf(mesh)[at(rim)]);
 	VertexInput input = selecting(mesh, {rim});
 	Options options = capped();
 	options.target = TargetCurvature::SelectedCones;
@@ -151,11 +145,8 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 SurfaceMesh withPinHoles()
 {
 	const auto vertex = [](int i, int j) { return i * 81 + j; };
-	const SurfaceMesh whole = grid(80, 80, Ends::Open, Ends::Open, [](int i, int j) {
-		const double x = i / 80.0, y = j / 80.0;
-		return Point3{x, y, 0.15 * std::sin(3 * x + 1) * std::cos(4 * y)};
-	});
-	return withoutStars(whole, {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
+	return withoutStars(
+		hill(80, 0.15), {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
 }
 
 TEST(ShortHoles, AreCappedByDefault)
@@ -234,13 +225,10 @@ TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
 	const FlatResult flat = run(mesh, Options());
 	EXPECT_EQ(flat.report.boundaryLoops, 2);
 	EXPECT_EQ(flat.report.cappedHoles, 2);
-	double total = 0.0;
-	for (const double k : flat.targetCurvature)
-		total += k;
-	EXPECT_NEAR(total, 4 * kPi, 1e-9);
+	EXPECT_NEAR(sum(flat.targetCurvature), 4 * kPi, 1e-9);
 	EXPECT_EQ(flat.report.flippedFaces, 0);
 	EXPECT_EQ(flat.report.overlappingFaces, 0);
-	EXPECT_LT(FlatMap(mesh, flat.uv).seamMismatch, 1e-6);
+	EXPECT_LT(MapCheck(mesh, flat).seamMismatch, 1e-6);
 }
 
 } // namespace

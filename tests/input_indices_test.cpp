@@ -18,14 +18,6 @@ Parametrization mapOf(const SurfaceMesh& mesh, OutputTriangulation output)
 	return parametrizeEuclidean(mesh, {}, options);
 }
 
-SurfaceMesh hill(int n, double height)
-{
-	return grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
-		const double x = double(i) / n, y = double(j) / n;
-		return Point3{x, y, height * std::sin(3.0 * x + 1.0) * std::cos(4.0 * y)};
-	});
-}
-
 /// The first vertex of both is one.
 SurfaceMesh touching(const SurfaceMesh& a, const SurfaceMesh& b)
 {

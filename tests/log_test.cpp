@@ -138,11 +138,10 @@ std::vector<Log> logs()
 	const SurfaceMesh donut = bumpyTorus(14, 9, random);
 	const SurfaceMesh handles = shaken(perforatedSlab(2, 2), 0.06, random);
 	const SurfaceMesh tube = shaken(sphereWithTube(0.2, 4, 0.4, 16, 16), 0.004, random);
-	SurfaceMesh sheet = randomPlanarDisk(6, random), plate = perforatedSlab(0, 4);
+	const SurfaceMesh plate = stretched(perforatedSlab(0, 4), {1, 1, 0.1});
+	SurfaceMesh sheet = randomPlanarDisk(6, random);
 	for (Point3& p : sheet.positions)
 		p[2] = 0.3 * std::sin(4 * p[0]) * std::cos(3 * p[1]);
-	for (Point3& p : plate.positions)
-		p[2] *= 0.1;
 	VertexInput bent;
 	bent.targetCurvature = {-3, 0, 0, 0, 0, 0, 0, 0};
 	const std::string disk = "{component} a disk.";

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces that are their own mirror images.
-#include "support/flat_map.h"
+#include "support/front_door.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -105,10 +104,10 @@ void expectMirrored(const Mirrored& surface)
 		options.charts = Charts::OfTheFlow;
 		const FlatResult map = run(mesh, options);
 		EXPECT_EQ(mirroredShare(surface, map), 1.0);
-		const FlatMap drawn(mesh, map.uv);
+		const std::vector<char> boundary = boundaryOf(mesh);
 		int cones = 0;
 		for (std::size_t v = 0; v < surface.image.size(); ++v) {
-			if (drawn.boundary[v])
+			if (boundary[v])
 				continue;
 			const double k = map.targetCurvature[v];
 			cones += k != 0.0;

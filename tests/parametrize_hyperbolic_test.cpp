@@ -240,18 +240,11 @@ SurfaceMesh skinOf(
 	const auto distance = [&](const Point3& p) {
 		double least = std::numeric_limits<double>::infinity();
 		for (const auto& [i, j] : edges) {
-			const Point3 &a = corners[i], &b = corners[j];
-			double along = 0.0, length = 0.0, gap = 0.0;
-			for (std::size_t k = 0; k < 3; ++k) {
-				along += (p[k] - a[k]) * (b[k] - a[k]);
-				length += (b[k] - a[k]) * (b[k] - a[k]);
-			}
-			const double t = std::clamp(along / length, 0.0, 1.0);
-			for (std::size_t k = 0; k < 3; ++k)
-				gap += std::pow(p[k] - a[k] - t * (b[k] - a[k]), 2);
-			least = std::min(least, gap);
+			const Point3 way = p - corners[i], edge = corners[j] - corners[i];
+			const double t = std::clamp(dot(way, edge) / dot(edge, edge), 0.0, 1.0);
+			least = std::min(least, ricci::length(way - t * edge));
 		}
-		return std::sqrt(least) - radius;
+		return least - radius;
 	};
 	const double size = 1.0 + 2.0 * radius;
 	return marchingCubes(

@@ -2,11 +2,9 @@
 // Complete runs from a mesh to the plane, on surfaces whose conformal map is known or whose flat
 // metric can be checked in the plane.
 #include "support/expect.h"
-#include "support/flat_map.h"
+#include "support/front_door.h"
 #include "support/intrinsic.h"
-#include "support/listener.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 
 #include <ricci/flow/target.h>
 #include <ricci/ricci.h>
@@ -130,8 +128,8 @@ TEST(Parametrize, LeastStretchLetsSeamsGoAndKeepsAreasBetter)
 	EXPECT_EQ(even.report.overlappingFaces, 0);
 	EXPECT_LT(
 		even.report.areaDistortionMean - 1.0, 0.9 * (conformal.report.areaDistortionMean - 1.0));
-	EXPECT_LT(FlatMap(mesh, conformal.uv).seamMismatch, 1e-8);
-	EXPECT_GT(FlatMap(mesh, even.uv).seamMismatch, 1e-3);
+	EXPECT_LT(MapCheck(mesh, conformal).seamMismatch, 1e-8);
+	EXPECT_GT(MapCheck(mesh, even).seamMismatch, 1e-3);
 }
 
 /// The long triangles of a spool cannot follow the metric that its cones were chosen for. By default the energy of the
@@ -152,7 +150,7 @@ TEST(Parametrize, TheEnergyOfLongTrianglesIsLoweredWithEqualSeams)
 		const FlatResult map = withListener(listener, [&] { return run(mesh, options); });
 		EXPECT_EQ(map.report.flippedFaces, 0);
 		EXPECT_EQ(map.report.unequalSeams, 0);
-		EXPECT_LT(FlatMap(mesh, map.uv).seamMismatch, 1e-8);
+		EXPECT_LT(MapCheck(mesh, map).seamMismatch, 1e-8);
 		for (const std::string& line : listener.lines) {
 			std::vector<double> energies; // of straight triangles, of the metric, and in the end
 			const std::string words[] = {"have the energy ", "not ", "angles, to "};
@@ -333,7 +331,7 @@ TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
 	for (const Triangle& face : mesh.triangles)
 		for (int v : face)
 			++faces[at(v)];
-	const std::vector<char> boundary = FlatMap(mesh, UV(mesh.triangles.size())).boundary;
+	const std::vector<char> boundary = boundaryOf(mesh);
 	const auto others =
 		std::count(boundary.begin(), boundary.end(), 1) - std::count(faces.begin(), faces.end(), 1);
 	VertexInput input;

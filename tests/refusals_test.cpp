@@ -261,9 +261,7 @@ std::vector<Refusal> meshes()
 			{"", scaled(sheet, factor), unscaled},
 			E(E::BeyondFloats),
 			"too large or too small for texture coordinates");
-	SurfaceMesh pressed = perforatedSlab(0, 1);
-	for (Point3& p : pressed.positions)
-		p[2] = 0.0;
+	const SurfaceMesh pressed = stretched(perforatedSlab(0, 1), {1, 1, 0});
 	table.add(
 		"NotPuncturable", {"", pressed, SphereOptions()}, E(E::NotPuncturable), "touches itself");
 	return table.rows();

@@ -128,10 +128,7 @@ TEST(SphereMap, ChangesAnInscribedPolyhedronByAMoebiusTransformation)
 /// An ellipsoid of revolution with half axes 1, 1 and \p c.
 SurfaceMesh spheroid(int level, double c)
 {
-	SurfaceMesh mesh = turned(icosphere(level), {0.2, 0.5, 0.0});
-	for (Point3& p : mesh.positions)
-		p[2] *= c;
-	return mesh;
+	return stretched(turned(icosphere(level), {0.2, 0.5, 0.0}), {1, 1, c});
 }
 
 TEST(SphereMap, OfASpheroidConvergesToTheConformalLatitude)
@@ -170,9 +167,7 @@ TEST(SphereMap, OfASpheroidConvergesToTheConformalLatitude)
 TEST(SphereMap, IsOrientedAndCentredForCoarseAndAwkwardSurfaces)
 {
 	const SurfaceMesh inside = withReversedFaces(icosphere(2), 1); // faces seen from inside
-	SurfaceMesh bar = icosphere(3);
-	for (Point3& p : bar.positions)
-		p[0] *= 4.0;
+	const SurfaceMesh bar = stretched(icosphere(3), {4, 1, 1});
 	for (const SurfaceMesh& mesh : {tetrahedron(), perforatedSlab(0, 3), bar, inside}) {
 		const SphereMap map = toSphere(mesh);
 		EXPECT_EQ(map.flippedFaces, 0);
@@ -230,9 +225,7 @@ TEST(SphereMap, OfALongSurfaceIsRefusedOrSaysWhatItLost)
 {
 	int refused = 0, told = 0;
 	for (const double length : {1.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0}) {
-		SurfaceMesh mesh = icosphere(3);
-		for (Point3& p : mesh.positions)
-			p[2] *= length;
+		const SurfaceMesh mesh = stretched(icosphere(3), {1, 1, length});
 		Listener listener;
 		const Task task(listener);
 		try {

@@ -63,48 +63,89 @@ SurfaceMesh cube()
 	return mesh;
 }
 
-/// The same with 24: each square has its own.
+/// Cells of a block.
+constexpr int kBlock = 6;
+using Block = std::array<std::array<std::array<int, kBlock + 2>, kBlock + 2>, kBlock + 2>;
+constexpr std::array<std::array<int, 3>, 6> kSteps = {
+	{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+
+template<class Visit>
+void forCells(const Visit& visit)
+{
+	for (int i = 1; i <= kBlock; ++i)
+		for (int j = 1; j <= kBlock; ++j)
+			for (int k = 1; k <= kBlock; ++k)
+				visit(std::array<int, 3>{i, j, k});
+}
+
+int& in(Block& block, const std::array<int, 3>& cell)
+{
+	return block[at(cell[0])][at(cell[1])][at(cell[2])];
+}
+
+std::array<int, 3> beside(const std::array<int, 3>& cell, const std::array<int, 3>& step)
+{
+	return {cell[0] + step[0], cell[1] + step[1], cell[2] + step[2]};
+}
+
+/// Full cells at random, with a number that those share that hang together across squares; 0: empty.
+Block randomBlock(std::uint64_t seed)
+{
+	Random random(seed);
+	Block block{};
+	int count = 0;
+	forCells(
+		[&](const auto& cell) { in(block, cell) = random.real(0.0, 1.0) < 0.4 ? ++count : 0; });
+	for (bool isChanged = true; isChanged;) {
+		isChanged = false;
+		forCells([&](const auto& cell) {
+			int& own = in(block, cell);
+			for (const auto& step : kSteps)
+				if (const int other = in(block, beside(cell, step)); own != 0 && other > own) {
+					own = other;
+					isChanged = true;
+				}
+		});
+	}
+	return block;
+}
+
+/// The squares between full cells and empty ones, each with vertices of its own, seen from outside.
+SurfaceMesh surfaceOf(Block block)
+{
+	SurfaceMesh mesh;
+	forCells([&](const auto& cell) {
+		for (const auto& step : kSteps) {
+			if (in(block, cell) == 0 || in(block, beside(cell, step)) != 0)
+				continue;
+			const std::size_t axis = step[0] != 0 ? 0 : step[1] != 0 ? 1 : 2;
+			const int first = static_cast<int>(mesh.positions.size());
+			for (const auto& [a, b] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+				Point3 p{double(cell[0]), double(cell[1]), double(cell[2])};
+				p[axis] += 0.5 * step[axis];
+				p[(axis + 1) % 3] += 0.5 * a * step[axis];
+				p[(axis + 2) % 3] += 0.5 * b;
+				mesh.positions.push_back(p);
+			}
+			mesh.triangles.push_back({first, first + 1, first + 2});
+			mesh.triangles.push_back({first, first + 2, first + 3});
+		}
+	});
+	return mesh;
+}
+
+/// A unit cube with 24 vertices: each square has its own.
 SurfaceMesh cubeOfSquares()
 {
-	const SurfaceMesh whole = cube();
-	SurfaceMesh mesh;
-	for (std::size_t f = 0; f < whole.triangles.size(); f += 2) {
-		const Triangle &t = whole.triangles[f], &u = whole.triangles[f + 1];
-		const int first = static_cast<int>(mesh.positions.size());
-		for (const int v : {t[0], t[1], t[2], u[2]})
-			mesh.positions.push_back(whole.positions[at(v)]);
-		mesh.triangles.push_back({first, first + 1, first + 2});
-		Triangle second = u;
-		for (int& v : second)
-			for (int k = 0; k < 4; ++k)
-				if (mesh.positions[at(first + k)] == whole.positions[at(v)]) {
-					v = first + k;
-					break;
-				}
-		mesh.triangles.push_back(second);
-	}
-	return mesh;
+	Block one{};
+	one[1][1][1] = 1;
+	return surfaceOf(one);
 }
 
 /// \p mesh and its other side, each with vertices of its own.
 SurfaceMesh doubleSided(const SurfaceMesh& mesh)
 {
 	return together(mesh, withReversedFaces(mesh, 1));
-}
-
-/// A square of two triangles, and its other side, cut along the other diagonal if \p isCrossed.
-SurfaceMesh leaf(bool isCrossed)
-{
-	SurfaceMesh mesh;
-	for (int side = 0; side < 2; ++side)
-		for (const Point3& p : {Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{1, 1, 0}, Point3{0, 1, 0}})
-			mesh.positions.push_back(p);
-	mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-	if (isCrossed)
-		mesh.triangles.insert(mesh.triangles.end(), {{4, 7, 5}, {5, 7, 6}});
-	else
-		mesh.triangles.insert(mesh.triangles.end(), {{4, 6, 5}, {4, 7, 6}});
-	return mesh;
 }
 
 struct Joining
@@ -175,9 +216,9 @@ std::vector<Joining> joinings()
 	const SurfaceMesh turnedOver{
 		{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, -1, 0}},
 		{{0, 1, 2}, {3, 4, 5}}};
-	SurfaceMesh thin = box;
-	for (Point3& p : thin.positions)
-		p[2] *= 1e-4;
+	SurfaceMesh crossed =
+		rectangle(1, 1, 1, 1); // the other side of a square, along the other diagonal
+	crossed.triangles = {{0, 1, 2}, {1, 3, 2}};
 	SurfaceMesh negativeZero = soup(box);
 	for (std::size_t v = 0; v < negativeZero.positions.size(); v += 2)
 		for (double& x : negativeZero.positions[v])
@@ -190,7 +231,7 @@ std::vector<Joining> joinings()
 		{"ZerosOfBothSigns", negativeZero, 1, 2, 0},
 		{"BoxWithASeam", split, 1, 2, 0},
 		{"SoupOfATorus", soup(torus(3, 1, 12, 8)), 1, 0, 0},
-		{"SoupOfAThinSlab", soup(thin), 1, 2, 0},
+		{"SoupOfAThinSlab", soup(stretched(box, {1, 1, 1e-4})), 1, 2, 0},
 		{"SoupOfABoxHalfOfItTurned", soup(withReversedFaces(box, 2)), 1, 2, 0},
 		{"TouchingBoxes", together(box, next), 2, 4, 0},
 		{"TouchingBoxesAsSoup", soup(together(box, next)), 2, 4, 0},
@@ -205,9 +246,9 @@ std::vector<Joining> joinings()
 		{"BoxesWithACommonEdge", together(box, diagonal), 2, 4, 0},
 		{"BoxesWithACommonEdgeAsSoup", soup(together(box, diagonal)), 2, 4, 0},
 		{"Leaf", doubleSided(triangle), 2, 2, 2},
-		{"SquareLeaf", leaf(false), 2, 2, 2},
-		{"SquareLeafAsSoup", soup(leaf(false)), 2, 2, 2},
-		{"CrossedLeaf", leaf(true), 2, 2, 2},
+		{"SquareLeaf", doubleSided(rectangle(1, 1, 1, 1)), 2, 2, 2},
+		{"SquareLeafAsSoup", soup(doubleSided(rectangle(1, 1, 1, 1))), 2, 2, 2},
+		{"CrossedLeaf", together(rectangle(1, 1, 1, 1), crossed), 2, 2, 2},
 		{"DoubleSidedSphere", doubleSided(sphere(8, 12)), 2, 4, 0},
 		{"DoubleSidedSphereAsSoup", soup(doubleSided(sphere(8, 12))), 2, 4, 0},
 		{"BookOfThreePages", three, 2, 2, 2},
@@ -253,77 +294,6 @@ TEST(SplitVertices, OfDifferentPartsStayApart)
 	EXPECT_EQ(whole.piecesApart, static_cast<int>(count) / 3 - 1 + 1);
 	EXPECT_EQ(parts.joinedEdges, joined);
 	EXPECT_EQ(parts.piecesApart, 1);
-}
-
-/// Cells of a block.
-constexpr int kBlock = 6;
-using Block = std::array<std::array<std::array<int, kBlock + 2>, kBlock + 2>, kBlock + 2>;
-constexpr std::array<std::array<int, 3>, 6> kSteps = {
-	{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-
-template<class Visit>
-void forCells(const Visit& visit)
-{
-	for (int i = 1; i <= kBlock; ++i)
-		for (int j = 1; j <= kBlock; ++j)
-			for (int k = 1; k <= kBlock; ++k)
-				visit(std::array<int, 3>{i, j, k});
-}
-
-int& in(Block& block, const std::array<int, 3>& cell)
-{
-	return block[at(cell[0])][at(cell[1])][at(cell[2])];
-}
-
-std::array<int, 3> beside(const std::array<int, 3>& cell, const std::array<int, 3>& step)
-{
-	return {cell[0] + step[0], cell[1] + step[1], cell[2] + step[2]};
-}
-
-/// Full cells at random, with a number that those share that hang together across squares; 0: empty.
-Block randomBlock(std::uint64_t seed)
-{
-	Random random(seed);
-	Block block{};
-	int count = 0;
-	forCells(
-		[&](const auto& cell) { in(block, cell) = random.real(0.0, 1.0) < 0.4 ? ++count : 0; });
-	for (bool isChanged = true; isChanged;) {
-		isChanged = false;
-		forCells([&](const auto& cell) {
-			int& own = in(block, cell);
-			for (const auto& step : kSteps)
-				if (const int other = in(block, beside(cell, step)); own != 0 && other > own) {
-					own = other;
-					isChanged = true;
-				}
-		});
-	}
-	return block;
-}
-
-/// The squares between full cells and empty ones, each with vertices of its own, seen from outside.
-SurfaceMesh surfaceOf(Block block)
-{
-	SurfaceMesh mesh;
-	forCells([&](const auto& cell) {
-		for (const auto& step : kSteps) {
-			if (in(block, cell) == 0 || in(block, beside(cell, step)) != 0)
-				continue;
-			const std::size_t axis = step[0] != 0 ? 0 : step[1] != 0 ? 1 : 2;
-			const int first = static_cast<int>(mesh.positions.size());
-			for (const auto& [a, b] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-				Point3 p{double(cell[0]), double(cell[1]), double(cell[2])};
-				p[axis] += 0.5 * step[axis];
-				p[(axis + 1) % 3] += 0.5 * a * step[axis];
-				p[(axis + 2) % 3] += 0.5 * b;
-				mesh.positions.push_back(p);
-			}
-			mesh.triangles.push_back({first, first + 1, first + 2});
-			mesh.triangles.push_back({first, first + 2, first + 3});
-		}
-	});
-	return mesh;
 }
 
 /// As many closed surfaces as bodies that cells make across their squares, whatever other bodies touch them. Two
@@ -444,7 +414,7 @@ TEST(SplitVertices, AreCutAtChosenSeams)
 {
 	SurfaceMesh mesh = cubeOfSquares();
 	mesh.seam.assign(mesh.triangles.size(), {0, 0, 0});
-	for (std::size_t f = 0; f < 2; ++f) // round the square z = 0
+	for (std::size_t f = 0; f < 2; ++f) // round the first square
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Point3 &p = mesh.positions[at(mesh.triangles[f][k])],
 						 &q = mesh.positions[at(mesh.triangles[f][(k + 1) % 3])];

@@ -2,6 +2,7 @@
 // What every map is whose triangles are the mesh's own, whatever it was asked for: no triangle is flipped, no
 // two cover the same part of the square, and seams fit, in the floats that are stored.
 #include "support/flat_map.h"
+#include "support/map_check.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -60,7 +61,7 @@ const std::vector<Asked>& asked()
 }
 
 /// Twice the signed area. Floats have exact differences here.
-long double doubledAreaOf(const std::array<std::array<float, 2>, 3>& p)
+long double doubledAreaOf(const Triangle2& p)
 {
 	const auto side = [&](std::size_t k, std::size_t i) {
 		return static_cast<long double>(p[k][i]) - static_cast<long double>(p[0][i]);
@@ -71,22 +72,20 @@ long double doubledAreaOf(const std::array<std::array<float, 2>, 3>& p)
 /// A map as floats.
 struct Stored
 {
-	UV uv; ///< [face of the mesh]
+	FlatResult map;
 	int flipped = 0;
 
-	explicit Stored(const FlatMesh& mesh) : uv(at(mesh.size()))
+	Stored(const SurfaceMesh& mesh, Parametrization whole)
 	{
-		for (int f = 0; f < mesh.size(); ++f) {
-			std::array<std::array<float, 2>, 3> stored;
-			for (std::size_t k = 0; k < 3; ++k)
-				for (std::size_t i = 0; i < 2; ++i) {
-					stored[k][i] = static_cast<float>(mesh.at(f)[k][i]);
-					EXPECT_GE(stored[k][i], 0.0f);
-					EXPECT_LE(stored[k][i], 1.0f);
-					uv[at(mesh.face[f])][k][i] = static_cast<double>(stored[k][i]);
-				}
-			flipped += !(doubledAreaOf(stored) > 0.0L);
-		}
+		for (Point2& p : whole.mesh.place)
+			for (double& x : p) {
+				x = static_cast<double>(static_cast<float>(x));
+				EXPECT_GE(x, 0.0);
+				EXPECT_LE(x, 1.0);
+			}
+		map = withCorners(mesh, std::move(whole));
+		for (const Triangle2& t : map.uv)
+			flipped += !(doubledAreaOf(t) > 0.0L);
 	}
 };
 
@@ -116,18 +115,17 @@ TEST_P(ValidMaps, HoldInFloats)
 		}
 		++maps;
 		ASSERT_EQ(at(map.mesh.size()), body.mesh.triangles.size());
-		const Stored stored(map.mesh);
+		const Stored stored(body.mesh, map);
 		EXPECT_EQ(stored.flipped, 0);
 		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, stored.flipped);
-		const CoveredTwice covered(
-			body.mesh, stored.uv, std::vector<char>(body.mesh.triangles.size(), 0));
+		const CoveredTwice covered(body.mesh, stored.map.uv);
 		EXPECT_EQ(covered.betweenCharts, 0);
 		EXPECT_EQ(covered.withinCharts, 0);
 		EXPECT_EQ(map.report.overlappingFaces, 0);
 		if (options.finish == Finish::LeastStretch) // it leaves both sides free
 			continue;
 		EXPECT_EQ(map.report.unequalSeams, 0);
-		EXPECT_LT(FlatMap(body.mesh, stored.uv).seamMismatch, 1e-3);
+		EXPECT_LT(MapCheck(body.mesh, stored.map).seamMismatch, 1e-3);
 	}
 	EXPECT_GE(maps, 3);
 }
@@ -183,7 +181,7 @@ TEST(ValidRoundDisks, StayRound)
 				options.target = isImplied ? TargetCurvature::Automatic : TargetCurvature::Disk;
 				const Parametrization map = parametrizeEuclidean(mesh, VertexInput(), options);
 				if (finish != Finish::None) {
-					EXPECT_EQ(Stored(map.mesh).flipped, 0);
+					EXPECT_EQ(Stored(mesh, map).flipped, 0);
 					EXPECT_EQ(map.charts.size(), 1u);
 				}
 				const std::vector<Point2> border = borderOf(mesh, map.mesh);
@@ -217,16 +215,14 @@ TEST(ValidDisks, HoldInFloats)
 	Random random(81);
 	for (const int genus : {2, 3, 4, 6})
 		for (const double height : {1.0, 0.3, 0.1}) {
-			SurfaceMesh plate = shaken(perforatedSlab(genus, 1), 0.2, random);
-			for (Point3& p : plate.positions)
-				p = {p[0], height * p[1], height * p[2]};
+			const SurfaceMesh plate =
+				stretched(shaken(perforatedSlab(genus, 1), 0.2, random), {1, height, height});
 			const Parametrization map =
 				parametrizeHyperbolic(plate, VertexInput(), HyperbolicOptions());
-			const Stored stored(map.mesh);
+			const Stored stored(plate, map);
 			EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, stored.flipped);
 			EXPECT_EQ(stored.flipped, 0);
-			const CoveredTwice covered(
-				plate, stored.uv, std::vector<char>(plate.triangles.size(), 0));
+			const CoveredTwice covered(plate, stored.map.uv);
 			EXPECT_EQ(covered.betweenCharts, 0);
 			EXPECT_EQ(covered.withinCharts, 0);
 			EXPECT_EQ(map.report.overlappingFaces, 0);

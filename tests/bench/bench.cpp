@@ -4,6 +4,7 @@
 // speed. One process measures one mesh, so that the peak of its memory means something; it is that of
 // the complete run from mesh to plane, which is first.
 #include "support/flipped_flow.h"
+#include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #ifdef RICCI_HAVE_VCGLIB
@@ -350,12 +351,9 @@ void measure(
 	row.flips = static_cast<std::size_t>(flow.flipCount());
 	// The matrix of the flow's last step; where the flow ran on the double of the surface, that of
 	// the surface itself at the start.
-	const IntrinsicMesh metric{surface.triangulation, surface.lengths};
-	const InitialPacking packing = inputPacking(metric);
-	VertexVector u(surface.triangulation.vertexCount());
-	for (const Vertex v : u.indices())
-		u[v] = std::log(packing.radii[v]);
-	GeometricCurvatureMap<Euclidean> map(packing.mesh.triangulation, packing.delta);
+	const testing::Packed packed(surface.triangulation, surface.lengths);
+	const VertexVector u = packed.u();
+	GeometricCurvatureMap<Euclidean> map = packed.map();
 	map.evaluate(u);
 	// K(u) and its derivative, what the flow does in several threads, in one and in all of them.
 	const auto evaluation = [&](int threads) {

@@ -29,8 +29,7 @@ void expectNothingTwice(const SurfaceMesh& mesh, const Parametrization& map)
 	EXPECT_EQ(map.report.overlappingFaces, 0);
 	EXPECT_EQ(map.report.overlappingCharts, 0);
 	EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, 0);
-	const CoveredTwice covered(
-		mesh, map.mesh.corners().values(), std::vector<char>(mesh.triangles.size(), 0));
+	const CoveredTwice covered(mesh, map.mesh.corners().values());
 	EXPECT_EQ(covered.charts, map.report.charts);
 	EXPECT_EQ(covered.betweenCharts + covered.withinCharts, 0);
 }
@@ -64,14 +63,10 @@ TEST(ChartDivision, OfARingTakesAsManyPartsAsTurns)
 TEST(ChartDivision, CutsWhereItIsShortest)
 {
 	const int around = 80, across = 6;
-	SurfaceMesh neck = screw(1.25, around, across);
-	std::vector<Triangle> kept;
-	for (std::size_t f = 0; f < neck.triangles.size(); ++f) {
-		const int cell = static_cast<int>(f / 2), i = cell / around, j = cell % around;
-		if (j != around / 2 || i == 0)
-			kept.push_back(neck.triangles[f]);
-	}
-	neck.triangles = kept;
+	const SurfaceMesh neck = partOf(screw(1.25, around, across), [](std::size_t f) {
+		const int cell = static_cast<int>(f / 2);
+		return cell % around != around / 2 || cell / around == 0;
+	});
 	const Parametrization map = mapOf(neck, Charts::WithoutOverlap);
 	expectNothingTwice(neck, map);
 	ASSERT_EQ(map.report.charts, 2);

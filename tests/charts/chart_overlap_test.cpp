@@ -119,8 +119,8 @@ TEST(ChartOverlap, ManySheetsThatOnlyTouchAreNotFollowedThroughAllTheirPairs)
 {
 	const int turns = 40, around = 25 * turns, across = 20;
 	const SurfaceMesh strip = screw(turns, around, across);
-	const FlatMesh chart =
-		flatMesh(strip, static_cast<int>(strip.positions.size()) - 1, {1e12, 1e12});
+	FlatMesh chart = flatMesh(strip);
+	chart.place.back() = {1e12, 1e12};
 	const OverlapSearch followed(chart);
 	EXPECT_TRUE(followed.pairs().empty());
 	EXPECT_TRUE(followed.isComplete());

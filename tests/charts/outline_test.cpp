@@ -115,8 +115,7 @@ Parametrization boxCharts(const std::vector<Point2>& sizes)
 	SurfaceMesh all;
 	Array<int> chart;
 	for (const auto& [x, y] : sizes) {
-		all = sideBySide(
-			all, {{{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}}, {{0, 1, 2}, {0, 2, 3}}}, 0.0);
+		all = sideBySide(all, rectangle(1, 1, x, y), 0.0);
 		chart.push_back(chart.size() / 2);
 		chart.push_back(chart.back());
 	}

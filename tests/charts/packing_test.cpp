@@ -139,8 +139,7 @@ double expectPacked(const SurfaceMesh& mesh, const Parametrization& map, std::si
 {
 	EXPECT_EQ(map.charts.size(), charts);
 	EXPECT_EQ(map.report.overlappingFaces, 0);
-	const CoveredTwice covered(
-		mesh, map.mesh.corners().values(), std::vector<char>(mesh.triangles.size(), 0));
+	const CoveredTwice covered(mesh, map.mesh.corners().values());
 	EXPECT_EQ(covered.charts, static_cast<int>(charts));
 	EXPECT_EQ(covered.betweenCharts + covered.withinCharts, 0);
 	const Triangle2 first = map.mesh.at(0);
@@ -155,10 +154,8 @@ double expectPacked(const SurfaceMesh& mesh, const Parametrization& map, std::si
 		}
 	}
 	Box2 whole;
-	for (const Chart& chart : map.charts) {
-		whole.add(chart.box.min);
-		whole.add(chart.box.max);
-	}
+	for (const Chart& chart : map.charts)
+		whole.add(chart.box);
 	const double side = whole.extent();
 	if (map.report.tiles > 1 || (whole.max[0] <= 1.0 && whole.max[1] <= 1.0)) {
 		EXPECT_NEAR(map.report.occupancy, area / map.report.tiles, 1e-9);
@@ -274,7 +271,7 @@ TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
 		EXPECT_NEAR(expectPacked(mesh, map, at(n)), 1.0, 1e-12);
 		Box2 whole;
 		for (const Chart& chart : map.charts)
-			whole.add(chart.box.min), whole.add(chart.box.max);
+			whole.add(chart.box);
 		for (const double x : whole.min)
 			EXPECT_NEAR(x / (whole.extent() + 2.0 * x), 0.05, 1e-6);
 		ASSERT_EQ(placed.size(), at(n));

@@ -276,22 +276,15 @@ TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
 TEST(ConeSearch, NoConeIsDroppedThatSavesMoreThanItsPrice)
 {
 	for (const double length : {2.0, 4.0, 8.0, 16.0, 32.0}) {
-		SurfaceMesh needle = sphere(60, 12);
-		const auto isLower = [](const Point3& p, const Point3& q) { return p[2] < q[2]; };
-		const auto numberOf = [&](auto p) {
-			return static_cast<int>(p - needle.positions.begin());
-		};
-		const int foot =
-			numberOf(std::min_element(needle.positions.begin(), needle.positions.end(), isLower));
-		for (Point3& p : needle.positions)
-			p[2] *= length;
-		Search search(withoutStars(needle, {foot})), other(withoutStars(needle, {foot}));
+		const SurfaceMesh needle = // open at its foot
+			withoutStars(stretched(sphere(60, 12), {1, 1, length}), {0});
+		Search search(needle), other(needle);
 		const VertexArray<Point3>& positions = search.linear.surface.positions;
 		std::vector<Vertex> cones;
 		for (const Vertex v : positions.indices())
 			cones.push_back(v);
 		std::stable_sort(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
-			return isLower(positions[b], positions[a]);
+			return positions[b][2] < positions[a][2];
 		});
 		cones.resize(2);
 		ConeModel& model = search.with(cones).model;

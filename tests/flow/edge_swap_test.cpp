@@ -63,8 +63,7 @@ void expectCurvature(
 		return a.step < b.step;
 	}));
 	EXPECT_EQ(states.back().step, map.report.iterations);
-	const FlatMap flat(mesh, map.uv);
-	EXPECT_LT(flat.seamMismatch, 1e-7);
+	EXPECT_LT(MapCheck(mesh, map).seamMismatch, 1e-7);
 	expectDrawn(mesh, map, wanted, true);
 	for (const auto& [ends, apexes] : edgesOf(mesh)) {
 		const auto [i, j] = ends;

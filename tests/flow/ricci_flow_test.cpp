@@ -3,6 +3,7 @@
 #include "support/flipped_flow.h"
 #include "support/front_door.h"
 #include "support/implicit_surface.h"
+#include "support/map_check.h"
 #include "support/random_surface.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ void expectReached(const SurfaceMesh& mesh, const FlatResult& map, bool isFree =
 	EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
 	EXPECT_EQ(report.brokenTriangles, 0);
 	expectDrawn(mesh, map, map.targetCurvature, isFree);
-	EXPECT_LT(FlatMap(mesh, map.uv).seamMismatch, 1e-7);
+	EXPECT_LT(MapCheck(mesh, map).seamMismatch, 1e-7);
 	if (!isFree) {
 		EXPECT_NEAR(sum(map.targetCurvature), 2 * kPi * report.eulerCharacteristic, 1e-10);
 	}

@@ -5,7 +5,6 @@
 
 #include <ricci/base/numbers.h>
 
-#include <cmath>
 #include <utility>
 
 namespace ricci::testing {
@@ -34,31 +33,12 @@ SurfaceMesh book(ByteSource& bytes)
 	const int sheets = bytes.oneIn(32) ? 60 + bytes.below(40) : 3 + bytes.below(6);
 	const int n = 1 + bytes.below(4);
 	const bool turns = bytes.oneIn(2);
-	SurfaceMesh mesh;
-	for (int j = 0; j <= n; ++j)
-		add(mesh, {0.0, 0.0, double(j)});
+	std::vector<Page> pages;
 	for (int s = 0; s < sheets; ++s) {
 		const double angle = bytes.oneIn(4) ? bytes.real(0, 2 * kPi) : 2 * kPi * s / sheets;
-		const bool turned = turns && bytes.oneIn(2);
-		int before = 0;
-		for (int i = 1; i <= n; ++i) {
-			const int row = vertexCount(mesh);
-			for (int j = 0; j <= n; ++j)
-				add(mesh, {i * std::cos(angle), i * std::sin(angle), double(j)});
-			for (int j = 0; j < n; ++j) {
-				Triangle a{before + j, row + j, row + j + 1};
-				Triangle b{before + j, row + j + 1, before + j + 1};
-				if (turned) {
-					std::swap(a[0], a[1]);
-					std::swap(b[0], b[1]);
-				}
-				mesh.triangles.push_back(a);
-				mesh.triangles.push_back(b);
-			}
-			before = row;
-		}
+		pages.push_back({angle, turns && bytes.oneIn(2)});
 	}
-	return mesh;
+	return bookOf(pages, n);
 }
 
 /// A square with opposite sides glued, with or without a twist: torus, Klein bottle, projective plane,
@@ -172,13 +152,10 @@ void addFlatFaces(SurfaceMesh& mesh, ByteSource& bytes)
 		case 1:
 			mesh.triangles.push_back({a, a, a});
 			break;
-		case 2: {
-			Point3 middle = mesh.positions[at(a)];
-			for (std::size_t k = 0; k < 3; ++k)
-				middle[k] = 0.5 * (middle[k] + mesh.positions[at(b)][k]);
-			mesh.triangles.push_back({a, b, add(mesh, middle)});
+		case 2:
+			mesh.triangles.push_back(
+				{a, b, add(mesh, 0.5 * (mesh.positions[at(a)] + mesh.positions[at(b)]))});
 			break;
-		}
 		default: {
 			const int n = 1 + bytes.below(4), first = vertexCount(mesh);
 			for (int v = 0; v < n + 2; ++v)

@@ -2,7 +2,6 @@
 #include "facade_check.h"
 
 #include "hostile_mesh.h"
-#include "support/bytes.h"
 #include "support/mesh_contents.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -236,33 +235,6 @@ bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report
 		   isEven(reading.mesh, 1e3) && report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
 }
 
-/// What no filter may change: vertices and faces with their flags, except for texture coordinates.
-template<class Mesh>
-std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
-{
-	Bytes bytes;
-	const auto put = [&](const auto& value) { bytes.add(value); };
-	for (std::size_t v = 0; v < vertices; ++v) {
-		for (int k = 0; k < 3; ++k) {
-			put(m.vert[v].cP()[k]);
-			put(m.vert[v].cN()[k]);
-		}
-		put(m.vert[v].cFlags());
-	}
-	if (!faces)
-		return bytes.all;
-	put(m.vert.size());
-	put(m.face.size());
-	for (const auto& f : m.face) {
-		for (int k = 0; k < 3; ++k) {
-			put(f.cV(k) - m.vert.data());
-			put(f.cN()[k]);
-		}
-		put(f.cFlags());
-	}
-	return bytes.all;
-}
-
 /// Sentences that speak of numbers and options, not of how faces are connected.
 bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
 {
@@ -457,11 +429,9 @@ Execution run(const HostileMesh& hostile)
 	Mesh m;
 	build(hostile, m);
 	const std::string before = contents(m);
-	typename Flow::Params params;
-	static_cast<Options&>(params) = hostile.options;
+	Options params = hostile.options;
 	params.normalizeUV = hostile.normalizeUV;
-	typename Flow::HyperbolicParams hyperbolicParams;
-	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
+	HyperbolicOptions hyperbolicParams = hostile.hyperbolicOptions;
 	hyperbolicParams.canonicalGenerators = true;
 	params.chartMargin = hostile.chartMargin;
 	const typename Flow::SideMarks seams = seamsOf(hostile, m.face.size());
@@ -532,7 +502,7 @@ Execution run(const HostileMesh& hostile)
 		return execution;
 	Mesh flat;
 	const std::size_t vertices = m.vert.size();
-	const std::string shape = shapeOf(m, vertices, !refined);
+	const std::string shape = shapeOf(m, vertices, !refined).all; // which no filter may change
 	if (refined)
 		Flow::WriteRefinement(m, result);
 	else {
@@ -542,7 +512,7 @@ Execution run(const HostileMesh& hostile)
 	const bool isPacked = hostile.normalizeUV || hostile.hyperbolic;
 	const bool hasTiles = !hostile.hyperbolic && hostile.options.tileSide > 0.0;
 	execution.defect = defectOfWritten(m, isPacked ? (hasTiles ? kTilesInRow : 1) : 0);
-	if (execution.defect.empty() && shapeOf(m, vertices, !refined) != shape)
+	if (execution.defect.empty() && shapeOf(m, vertices, !refined).all != shape)
 		execution.defect = "the mesh is not what it was";
 	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(result, flat);
 	if (execution.defect.empty() && flat.FN() != m.FN())

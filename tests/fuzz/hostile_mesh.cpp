@@ -3,12 +3,14 @@
 
 #include "support/shapes.h"
 
+#include <ricci/base/graphs.h>
 #include <ricci/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -106,19 +108,11 @@ SurfaceMesh stackedSphere(ByteSource& bytes)
 SurfaceMesh gluedAtRandom(ByteSource& bytes)
 {
 	const int n = 1 + bytes.below(5);
-	std::vector<int> parent(at(3 * n));
-	for (int i = 0; i < 3 * n; ++i)
-		parent[at(i)] = i;
-	const auto find = [&](int i) {
-		while (parent[at(i)] != i)
-			i = parent[at(i)];
-		return i;
-	};
+	DisjointSets corners(3 * n);
 	const auto corner = [&](int side, int end) { return 3 * (side / 3) + (side % 3 + end) % 3; };
 	std::vector<int> free(at(3 * n)), mate(at(3 * n), -1);
+	std::iota(free.begin(), free.end(), 0);
 	std::vector<char> twisted(at(3 * n), 0);
-	for (int i = 0; i < 3 * n; ++i)
-		free[at(i)] = i;
 	const int pairs = bytes.below(3 * n / 2 + 1);
 	const bool mayTwist = bytes.oneIn(4);
 	for (int i = 0; i < pairs; ++i) {
@@ -130,7 +124,7 @@ SurfaceMesh gluedAtRandom(ByteSource& bytes)
 		}
 		const bool twist = mayTwist && bytes.oneIn(2);
 		for (int end : {0, 1})
-			parent[at(find(corner(side[0], end)))] = find(corner(side[1], twist ? end : 1 - end));
+			corners.merge(corner(side[0], end), corner(side[1], twist ? end : 1 - end));
 		mate[at(side[0])] = side[1];
 		mate[at(side[1])] = side[0];
 		twisted[at(side[0])] = twisted[at(side[1])] = twist;
@@ -144,8 +138,8 @@ SurfaceMesh gluedAtRandom(ByteSource& bytes)
 		return vertexCount(mesh) - 1;
 	};
 	for (int s = 0; s < 3 * n; ++s) {
-		if (vertexOf[at(find(s))] < 0)
-			vertexOf[at(find(s))] = add();
+		if (int& v = vertexOf[at(corners.find(s))]; v < 0)
+			v = add();
 		if (onSide[at(s)][0] >= 0)
 			continue;
 		onSide[at(s)] = {add(), add()};
@@ -158,7 +152,7 @@ SurfaceMesh gluedAtRandom(ByteSource& bytes)
 		const int middle = add();
 		std::array<int, 9> rim;
 		for (int k = 0; k < 3; ++k) {
-			rim[at(3 * k)] = vertexOf[at(find(3 * f + k))];
+			rim[at(3 * k)] = vertexOf[at(corners.find(3 * f + k))];
 			rim[at(3 * k + 1)] = onSide[at(3 * f + k)][0];
 			rim[at(3 * k + 2)] = onSide[at(3 * f + k)][1];
 		}
@@ -269,11 +263,9 @@ void changeCoordinates(SurfaceMesh& mesh, ByteSource& bytes)
 	case 1:
 		mesh.positions[v] = mesh.positions[w];
 		break;
-	case 2: { // middle of an edge
-		for (std::size_t i = 0; i < 3; ++i)
-			mesh.positions[v][i] = 0.5 * (mesh.positions[v][i] + mesh.positions[w][i]);
+	case 2: // middle of an edge
+		mesh.positions[v] = 0.5 * (mesh.positions[v] + mesh.positions[w]);
 		break;
-	}
 	case 3: { // flat, or nearly
 		const double factor = bytes.oneIn(2) ? 0.0 : std::pow(10.0, -bytes.below(40));
 		for (Point3& p : mesh.positions)

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
+
 #include <ricci/hyperbolic/finish_disks.h>
 #include <ricci/measure/map_check.h>
 
 #include <gtest/gtest.h>
 
-#include <complex>
-
 namespace ricci::testing {
 namespace {
-
-Point2 asPoint(const std::complex<double>& z)
-{
-	return {z.real(), z.imag()};
-}
 
 /// A band along the real axis of the disk, between two curves at the distance \p halfWidth from it, of \p n
 /// quadrilaterals with sides \p step along it, each of two triangles; the middle of the band lies at 0.
@@ -25,7 +20,7 @@ Parametrization band(int n, double step, double halfWidth)
 			const ExtendedIsometry at = ExtendedIsometry::translation(step * (i - 0.5 * n)) *
 										ExtendedIsometry::rotation(side * 0.5 * M_PI) *
 										ExtendedIsometry::translation(halfWidth);
-			mesh.place.push_back(asPoint(std::complex<double>(at.origin())));
+			mesh.place.push_back(asPoint(Complex(at.origin())));
 		}
 	for (int i = 0; i < n; ++i) {
 		mesh.points.push_back({2 * i, 2 * i + 2, 2 * i + 3});
@@ -72,8 +67,7 @@ TEST(DivideDisks, MovesFarPartsByIsometries)
 		const Chart& chart = map.charts[positionOf(map.mesh.chart[f])];
 		EXPECT_EQ(chart.middle, map.mesh.chart[f] == 0 ? -1 : 0);
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 moved =
-				asPoint(std::complex<double>(chart.place(asComplex(whole.mesh.at(f)[k]))));
+			const Point2 moved = asPoint(Complex(chart.place(asComplex(whole.mesh.at(f)[k]))));
 			EXPECT_LT(distance(map.mesh.at(f)[k], moved), 1e-15);
 		}
 	}

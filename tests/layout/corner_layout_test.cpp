@@ -2,10 +2,10 @@
 // Layouts of a flow along any cut, against its lengths and scale factors. common_refinement_test.cpp has what the
 // result shows.
 #include "support/complex.h"
+#include "support/expect.h"
 #include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
-#include "support/refinement_check.h"
 #include "support/shapes.h"
 
 #include <ricci/layout/corner_layout.h>
@@ -81,9 +81,9 @@ void expectCongruent(const PlanarLayout& a, const PlanarLayout& b)
 void expectValid(const FlippedFlow& flow, const CutGraph& cut, const SurfaceLayout& r)
 {
 	const VertexVector& k = flow.result.target.curvature;
-	const RefinementCheck check(flow.mesh, r.refinement, {k.data(), k.data() + k.size()});
+	const MapCheck check(flow.mesh, r.refinement, {k.data(), k.data() + k.size()});
 	const SurfaceType& type = flow.surface().topology.type;
-	check.expectValid(type.eulerCharacteristic(), type.boundaryLoops);
+	expectSurface(check, type.eulerCharacteristic(), type.boundaryLoops);
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_LT(check.angleError, 1e-8);
 	EXPECT_NEAR(check.area / flow.result.area, 1.0, 1e-9);

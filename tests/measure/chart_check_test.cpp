@@ -238,40 +238,34 @@ TEST(ChartCheck, PointsHaveToBeNumbersAndInTheDisk)
 
 using Counts = std::array<int, 2>; ///< faces and charts
 
-/// Unit squares of two triangles with these lower left corners, one chart each.
-Parametrization squares(const std::vector<Point2>& corners)
+/// Faces and charts that overlap of two unit squares, one chart each, whose left sides lie at these x.
+Counts overlapsOfSquares(double one, double other)
 {
-	SurfaceMesh mesh;
-	for (const Point2& c : corners)
-		mesh = sideBySide(
-			mesh,
-			{{{0, c[1], 0}, {1, c[1], 0}, {1, c[1] + 1, 0}, {0, c[1] + 1, 0}},
-			 {{0, 1, 2}, {0, 2, 3}}},
-			c[0]);
-	FlatMesh flat = flatMesh(mesh);
+	const SurfaceMesh square = rectangle(1, 1, 1.0, 1.0);
+	FlatMesh flat = flatMesh(sideBySide(sideBySide({}, square, one), square, other));
 	for (const int f : flat.chart.indices())
 		flat.chart[f] = f / 2;
-	return mapWith(flat);
+	return overlapsInFloats(flat);
 }
 
 /// The strip of a ring, turning by \p angle: it overlaps itself where that is more than 2 pi, except for its
 /// ends, which lie beside each other.
-Parametrization strip(double angle)
+FlatMesh strip(double angle)
 {
-	return mapWith(flatMesh(grid(40, 2, Ends::Open, Ends::Open, [&](int i, int j) {
+	return flatMesh(grid(40, 2, Ends::Open, Ends::Open, [&](int i, int j) {
 		const double a = angle * i / 40, r = 2.0 - 0.5 * j + 0.5 * a / (2 * kPi);
 		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
-	})));
+	}));
 }
 
 /// Charts that are a step of a double apart may be stored at one place, and overlap by what is stored.
 TEST(OverlapsInFloats, GoesByTheCoordinatesAsFloats)
 {
 	const double step = std::ldexp(1.0, -23); // of a float above 1
-	EXPECT_EQ(overlapsInFloats(squares({{0, 0}, {1 - 2 * step, 0}}).mesh), (Counts{0, 0}));
-	EXPECT_GT(overlapsInFloats(squares({{0, 0}, {1 - 40 * step, 0}}).mesh)[0], 0);
-	EXPECT_EQ(overlapsInFloats(squares({{1e6, 0}, {1e6 + 0.999, 0}}).mesh), (Counts{0, 0}));
-	EXPECT_GT(overlapsInFloats(squares({{1e3, 0}, {1e3 + 0.99, 0}}).mesh)[0], 0);
+	EXPECT_EQ(overlapsOfSquares(0, 1 - 2 * step), (Counts{0, 0}));
+	EXPECT_GT(overlapsOfSquares(0, 1 - 40 * step)[0], 0);
+	EXPECT_EQ(overlapsOfSquares(1e6, 1e6 + 0.999), (Counts{0, 0}));
+	EXPECT_GT(overlapsOfSquares(1e3, 1e3 + 0.99)[0], 0);
 }
 
 /// Two squares whose common side is a seam, the right one wider and higher by the factor \p scale.
@@ -295,7 +289,7 @@ TEST(UnequalSeams, ComparesTheSidesOfEachEdgeOfASeam)
 	EXPECT_EQ(unequalSeamsAt(1.0 + 0.9 * kUnequalShare), 0);
 	EXPECT_EQ(unequalSeamsAt(1.0 + 1.1 * kUnequalShare), 1);
 	EXPECT_EQ(unequalSeamsAt(1.0 / (1.0 + 1.1 * kUnequalShare)), 1);
-	EXPECT_EQ(unequalSeams(strip(1.5 * kPi).mesh), 0); // no edge inside, and no boundary
+	EXPECT_EQ(unequalSeams(strip(1.5 * kPi)), 0); // no edge inside, and no boundary
 }
 
 SurfaceMesh octahedron()

@@ -182,10 +182,7 @@ Eigen::Matrix2d harmonicEnergies(const SurfaceMesh& mesh, int nv)
 			const int v = t[k], w = t[(k + 1) % 3];
 			const Point3 x = mesh.positions[at(v)] - mesh.positions[at(t[(k + 2) % 3])],
 						 y = mesh.positions[at(w)] - mesh.positions[at(t[(k + 2) % 3])];
-			const double dot = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-			const double squares = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) *
-								   (y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
-			const double weight = 0.5 * dot / std::sqrt(squares - dot * dot); // the cotangent
+			const double weight = 0.5 * dot(x, y) / length(cross(x, y)); // the cotangent
 			const Eigen::RowVector2d form(past(v / nv, w / nv), past(v % nv, w % nv));
 			laplacian(v, v) += weight;
 			laplacian(w, w) += weight;

@@ -2,15 +2,12 @@
 #ifndef RICCI_TESTS_FLAT_MAPS_H
 #define RICCI_TESTS_FLAT_MAPS_H
 
+#include "support/flat_meshes.h"
 #include "support/random.h"
-#include "support/shapes.h"
 
 #include <ricci/base/points.h>
-#include <ricci/layout/flat_mesh.h>
 
 #include <cstdint>
-#include <utility>
-#include <vector>
 
 namespace ricci::testing {
 
@@ -27,36 +24,10 @@ inline bool isInside(int vertex)
 	return i > 0 && i < kSide && j > 0 && j < kSide;
 }
 
-/// A disk whose vertices lie at \p places in the plane.
-inline FlatMesh flatDisk(const SurfaceMesh& mesh, std::vector<Point2> places)
-{
-	FlatMesh flat;
-	flat.vertices = flat.points = Array<Triangle>(mesh.triangles);
-	flat.place = Array<Point2>(std::move(places));
-	for (const Triangle& t : mesh.triangles) {
-		const auto length = [&](std::size_t i, std::size_t j) {
-			return distance(mesh.positions[at(t[i])], mesh.positions[at(t[j])]);
-		};
-		flat.lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
-	}
-	connect(flat);
-	return flat;
-}
-
-/// The vertices of a mesh as they are seen from above.
-inline std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
-{
-	std::vector<Point2> places;
-	for (const Point3& p : mesh.positions)
-		places.push_back({p[0], p[1]});
-	return places;
-}
-
 /// A square of kSide by kSide cells, two triangles each, laid out as it is.
 inline FlatMesh square()
 {
-	const SurfaceMesh mesh = rectangle(kSide, kSide, kSide, kSide);
-	return flatDisk(mesh, fromAbove(mesh));
+	return flatMesh(rectangle(kSide, kSide, kSide, kSide));
 }
 
 /// The square with \p count points inside moved up to two cells away.

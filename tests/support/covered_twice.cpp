@@ -75,7 +75,7 @@ CoveredTwice::CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vec
 	for (std::size_t f = 0; f < place.size(); ++f) {
 		const int face = static_cast<int>(f);
 		charts += chart.find(face) == face;
-		if (reversed[f])
+		if (!reversed.empty() && reversed[f])
 			std::swap(place[f][1], place[f][2]);
 		if (area(place[f][0], place[f][1], place[f][2]) <= 0)
 			continue;

@@ -3,6 +3,7 @@
 #ifndef RICCI_TESTS_EXPECT_H
 #define RICCI_TESTS_EXPECT_H
 
+#include "map_check.h"
 #include "shapes.h"
 
 #include <ricci/error.h>
@@ -68,6 +69,19 @@ E refusalFor(typename E::Problem problem, const std::vector<std::string>& words,
 	EXPECT_EQ(refused.problem, problem);
 	expectWords(refused.what(), words);
 	return refused;
+}
+
+/// A refinement is one of a surface of this kind, its seams fit, and no triangle is flipped.
+/// \param curvatureError radians, of the metric: an angle moves what is up to ten thousand edges away
+inline void expectSurface(const MapCheck& check, int chi, int loops, double curvatureError = 0.0)
+{
+	EXPECT_EQ(check.notPositive, 0);
+	EXPECT_LT(check.seamMismatch, std::max(1e-9, 1e4 * curvatureError));
+	EXPECT_GE(check.minWeight, -1e-12);
+	EXPECT_LT(check.weightError, 1e-14);
+	EXPECT_EQ(check.seamsInside, 0);
+	EXPECT_EQ(check.eulerCharacteristic, chi);
+	EXPECT_EQ(check.boundaryLoops, loops);
 }
 
 /// The surface cut open is connected and has Euler characteristic 1: a disk, with every marked vertex on its

@@ -86,19 +86,6 @@ std::vector<FacadeRun> facadeRuns()
 	return all;
 }
 
-void build(const SurfaceMesh& shape, FloatMesh& m)
-{
-	toVcg(shape, m);
-	float value = 0.0f;
-	for (auto& v : m.vert)
-		v.Q() = value += 0.25f;
-	for (auto& f : m.face)
-		for (int k = 0; k < 3; ++k) {
-			f.WT(k).U() = value += 0.125f;
-			f.WT(k).N() = 3;
-		}
-}
-
 void write(FloatMesh& m, const Options& params, const Flow::Result& result)
 {
 	if (params.output == OutputTriangulation::CommonRefinement) {

@@ -41,7 +41,19 @@ inline std::ostream& operator<<(std::ostream& out, const FacadeRun& run)
 }
 
 /// \p shape with something in quality and texture coordinates.
-void build(const SurfaceMesh& shape, FloatMesh& m);
+template<class Mesh>
+void build(const SurfaceMesh& shape, Mesh& m)
+{
+	toVcg(shape, m);
+	float value = 0.0f;
+	for (auto& v : m.vert)
+		v.Q() = value += 0.25f;
+	for (auto& f : m.face)
+		for (int k = 0; k < 3; ++k) {
+			f.WT(k).U() = value += 0.125f;
+			f.WT(k).N() = 3;
+		}
+}
 
 /// Writes all that a filter would.
 void write(

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "failing_malloc.h"
 
-#ifdef RICCI_CAN_FAIL_MALLOC
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -11,7 +9,9 @@
 #include <cstring>
 #include <utility>
 
+#ifdef RICCI_CAN_FAIL_MALLOC
 #include <link.h>
+#endif
 
 namespace {
 
@@ -121,6 +121,7 @@ struct CodeRange
 CodeRange openMp()
 {
 	CodeRange range;
+#ifdef RICCI_CAN_FAIL_MALLOC
 	dl_iterate_phdr(
 		[](dl_phdr_info* info, std::size_t, void* data) {
 			if (std::strstr(info->dlpi_name, "libgomp") == nullptr)
@@ -134,6 +135,7 @@ CodeRange openMp()
 			return 1;
 		},
 		&range);
+#endif
 	return range;
 }
 
@@ -182,6 +184,11 @@ private:
 // Initialised before the first allocation of the process, because nothing has to run for it.
 Ledger ledger;
 Countdown countdown;
+
+} // namespace
+
+#ifdef RICCI_CAN_FAIL_MALLOC
+namespace {
 
 void* handedOut(void* block)
 {
@@ -241,6 +248,7 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size)
 	return *block == nullptr ? ENOMEM : 0;
 }
 }
+#endif
 
 namespace ricci::testing {
 
@@ -267,26 +275,3 @@ long FailingMalloc::freedTwice() const
 }
 
 } // namespace ricci::testing
-
-#else
-
-namespace ricci::testing {
-
-FailingMalloc::FailingMalloc(long, Failing)
-{
-}
-void FailingMalloc::end()
-{
-}
-long FailingMalloc::failures() const
-{
-	return 0;
-}
-long FailingMalloc::freedTwice() const
-{
-	return 0;
-}
-
-} // namespace ricci::testing
-
-#endif

@@ -8,55 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
 namespace ricci::testing {
-
-FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
-{
-	curvature.assign(mesh.positions.size(), 2 * kPi);
-	boundary.assign(mesh.positions.size(), 0);
-	std::map<std::pair<int, int>, std::array<Point2, 2>>
-		sides; // by the vertices, from one to the other
-	double extent = 0.0;
-	for (std::size_t f = 0; f < uv.size(); ++f) {
-		const Triangle2& p = uv[f];
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
-			sides[{mesh.triangles[f][k], mesh.triangles[f][next]}] = {p[k], p[next]};
-			curvature[at(mesh.triangles[f][k])] -=
-				std::abs(std::arg(asComplex(p[last] - p[k]) / asComplex(p[next] - p[k])));
-			extent = std::max(extent, length(p[k]));
-		}
-	}
-	// What the coordinates' own last places make of a length.
-	const double rounding = 8 * std::numeric_limits<double>::epsilon() * extent;
-	for (const auto& [ends, side] : sides) {
-		const auto found = sides.find({ends.second, ends.first});
-		if (found == sides.end())
-			boundary[at(ends.first)] = boundary[at(ends.second)] = 1;
-		else if (const auto& other = found->second;
-				 ends.first < ends.second && (side[0] != other[1] || side[1] != other[0])) {
-			++seamEdges;
-			const double own = distance(side[0], side[1]), its = distance(other[0], other[1]);
-			seamMismatch = std::max(seamMismatch, (std::abs(own - its) - rounding) / its);
-		}
-	}
-	for (std::size_t v = 0; v < curvature.size(); ++v)
-		if (boundary[v])
-			curvature[v] -= kPi;
-}
-
-double FlatMap::insideError(const std::vector<double>& target) const
-{
-	double largest = 0.0;
-	for (std::size_t v = 0; v < curvature.size(); ++v)
-		if (!boundary[v])
-			largest = std::max(largest, std::abs(curvature[v] - target[v]));
-	return largest;
-}
 
 FlatResult withCorners(const SurfaceMesh& mesh, Parametrization map)
 {

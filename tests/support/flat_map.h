@@ -16,22 +16,6 @@ using UV = std::vector<Triangle2>;
 constexpr OutputTriangulation kOutputs[] = {
 	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
 
-/// What can be seen of a map to the plane without knowing how it was made. Faces must be coherently
-/// oriented.
-struct FlatMap
-{
-	double seamMismatch =
-		0.0; ///< worst relative difference of a seam's two lengths, beyond the coordinates' rounding
-	int seamEdges = 0;             ///< edges whose two sides lie at different places
-	std::vector<double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles in the plane
-	std::vector<char> boundary;    ///< [vertex]
-
-	FlatMap(const SurfaceMesh& mesh, const UV& uv);
-
-	/// Largest |curvature - target| over inner vertices.
-	double insideError(const std::vector<double>& target) const;
-};
-
 /// A map in the indices of the input, with what it gives the input's faces.
 struct FlatResult : Parametrization
 {
@@ -73,7 +57,8 @@ struct CoveredTwice
 
 	/// \param uv in the unit square; taken as floats. Faces that are flipped, or have no area,
 	/// are left out.
-	CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vector<char>& reversed);
+	/// \param reversed [face]; empty: none
+	CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vector<char>& reversed = {});
 };
 
 /// Pairs of triangles of one chart that cover a part of the plane together.

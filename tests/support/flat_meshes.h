@@ -21,28 +21,28 @@ inline FlatMesh flatMesh(const SurfaceMesh& mesh, const std::vector<Triangle2>& 
 	return flatMeshOf(Array<Triangle>(mesh.triangles), Array<Triangle2>(plane), mesh.positions);
 }
 
-/// A mesh over the plane: its own x and y are its place there.
-inline FlatMesh flatMesh(const SurfaceMesh& mesh)
+/// A disk whose vertices lie at \p places in the plane.
+inline FlatMesh flatDisk(const SurfaceMesh& mesh, std::vector<Point2> places)
 {
-	std::vector<Triangle2> plane;
-	for (const Triangle& t : mesh.triangles) {
-		Triangle2 p;
-		for (std::size_t k = 0; k < 3; ++k)
-			p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-		plane.push_back(p);
-	}
-	return flatMesh(mesh, plane);
+	FlatMesh flat = flatMesh(mesh, std::vector<Triangle2>(mesh.triangles.size()));
+	flat.points = flat.vertices;
+	flat.place = Array<Point2>(std::move(places));
+	return flat;
 }
 
-/// The same with one of its vertices elsewhere.
-inline FlatMesh flatMesh(const SurfaceMesh& mesh, int vertex, const Point2& place)
+/// The vertices of a mesh as they are seen from above.
+inline std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
 {
-	FlatMesh flat = flatMesh(mesh);
-	for (const int f : flat.points.indices())
-		for (const Corner c : cornersOf(f))
-			if (flat.vertices[c] == vertex)
-				flat.place[flat.points[c]] = place;
-	return flat;
+	std::vector<Point2> places;
+	for (const Point3& p : mesh.positions)
+		places.push_back({p[0], p[1]});
+	return places;
+}
+
+/// A mesh over the plane as it is seen from above.
+inline FlatMesh flatMesh(const SurfaceMesh& mesh)
+{
+	return flatDisk(mesh, fromAbove(mesh));
 }
 
 /// With as many charts as \p mesh names.

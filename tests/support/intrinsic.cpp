@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 
 namespace ricci::testing {
 

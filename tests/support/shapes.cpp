@@ -55,6 +55,14 @@ SurfaceMesh rectangle(int nx, int ny, double width, double height)
 	});
 }
 
+SurfaceMesh hill(int n, double height)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+}
+
 SurfaceMesh bumpyPatch(int n)
 {
 	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
@@ -221,13 +229,12 @@ SurfaceMesh perforatedSlab(int genus, int subdivision)
 	return mesh;
 }
 
-SurfaceMesh book(int sheets, int n)
+SurfaceMesh bookOf(const std::vector<Page>& sheets, int n)
 {
 	SurfaceMesh mesh;
 	for (int j = 0; j <= n; ++j)
 		mesh.positions.push_back({0.0, 0.0, double(j)});
-	for (int s = 0; s < sheets; ++s) {
-		const double angle = 2 * kPi * s / sheets;
+	for (const auto& [angle, isTurned] : sheets) {
 		const int first = static_cast<int>(mesh.positions.size());
 		for (int i = 1; i <= n; ++i)
 			for (int j = 0; j <= n; ++j)
@@ -236,12 +243,20 @@ SurfaceMesh book(int sheets, int n)
 			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
 		};
 		for (Triangle t : cells(n, n, vertex)) {
-			if (2 * s >= sheets)
-				std::swap(t[1], t[2]);
+			if (isTurned)
+				std::swap(t[0], t[1]);
 			mesh.triangles.push_back(t);
 		}
 	}
 	return mesh;
+}
+
+SurfaceMesh book(int sheets, int n)
+{
+	std::vector<Page> all;
+	for (int s = 0; s < sheets; ++s)
+		all.push_back({2 * kPi * s / sheets, 2 * s >= sheets});
+	return bookOf(all, n);
 }
 
 SurfaceMesh kleinBottle(int nu, int nv, const std::function<Point3(int, int)>& point)
@@ -335,9 +350,14 @@ SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t
 
 SurfaceMesh scaled(SurfaceMesh mesh, double factor)
 {
+	return stretched(std::move(mesh), {factor, factor, factor});
+}
+
+SurfaceMesh stretched(SurfaceMesh mesh, const Point3& factors)
+{
 	for (Point3& p : mesh.positions)
-		for (double& x : p)
-			x *= factor;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] *= factors[k];
 	return mesh;
 }
 

@@ -43,6 +43,9 @@ grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, i
 /// Flat rectangle, [0, width] x [0, height] at z = 0.
 SurfaceMesh rectangle(int nx, int ny, double width, double height);
 
+/// A bumpy square of n x n cells with sides of length 1.
+SurfaceMesh hill(int n, double height);
+
 /// A bumpy patch with a round outline that is not centred on anything.
 SurfaceMesh bumpyPatch(int n);
 
@@ -77,6 +80,14 @@ SurfaceMesh tetrahedron();
 /// \p genus separate cubes taken out; each square is cut into 2 (subdivision)^2 triangles.
 SurfaceMesh perforatedSlab(int genus, int subdivision);
 
+/// Rectangles of n by n unit cells with one side in common, on the z axis, at these angles.
+struct Page
+{
+	double angle;
+	bool isTurned; ///< orientation
+};
+SurfaceMesh bookOf(const std::vector<Page>& sheets, int n);
+
 /// \p sheets rectangles of n by n unit cells with one side in common, on the z axis, at equal angles. The
 /// second half of them has the orientation that the first half has once it is past that side.
 SurfaceMesh book(int sheets, int n);
@@ -106,6 +117,9 @@ SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertic
 SurfaceMesh partOf(const SurfaceMesh& mesh, const std::function<bool(std::size_t)>& isKept);
 
 SurfaceMesh scaled(SurfaceMesh mesh, double factor);
+
+/// Each coordinate times its factor.
+SurfaceMesh stretched(SurfaceMesh mesh, const Point3& factors);
 
 /// Coordinates as floats hold them.
 SurfaceMesh inFloats(SurfaceMesh mesh);

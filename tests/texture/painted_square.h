@@ -3,8 +3,8 @@
 #ifndef RICCI_TESTS_PAINTED_SQUARE_H
 #define RICCI_TESTS_PAINTED_SQUARE_H
 
+#include "support/flat_meshes.h"
 #include "support/random.h"
-#include "support/shapes.h"
 
 #include <ricci/base/indexed.h>
 #include <ricci/texture/carry_texture.h>
@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace ricci::testing {
@@ -43,24 +44,26 @@ struct Square
 	{
 		const SurfaceMesh mesh = rectangle(n, n, 1.0, 1.0);
 		triangles = mesh.triangles;
-		for (const Triangle& t : triangles) {
-			place.emplace_back();
-			for (std::size_t k = 0; k < 3; ++k)
-				place.back()[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-		}
+		place = flatMesh(mesh).corners().values();
 	}
 
 	std::vector<Triangle> triangles;
 	std::vector<Triangle2> place;
 };
 
+/// A square of two triangles from (x, y).
+inline std::vector<Triangle2> box(double x, double y, double width, double height)
+{
+	const Point2 a{x, y}, b{x + width, y}, c{x + width, y + height}, d{x, y + height};
+	return {Triangle2{a, b, c}, Triangle2{a, c, d}};
+}
+
 /// An atlas of one cell for two triangles, without space between them, in random order: as MeshLab's own.
 inline std::vector<Triangle2> shatteredAtlas(std::size_t triangles, Random& random)
 {
 	std::vector<Triangle2> atlas(triangles);
 	std::vector<std::size_t> order(triangles);
-	for (std::size_t i = 0; i < triangles; ++i)
-		order[i] = i;
+	std::iota(order.begin(), order.end(), std::size_t(0));
 	random.shuffle(order);
 	const int cells =
 		static_cast<int>(std::ceil(std::sqrt(static_cast<double>((triangles + 1) / 2))));
@@ -68,17 +71,9 @@ inline std::vector<Triangle2> shatteredAtlas(std::size_t triangles, Random& rand
 		const double side = 1.0 / cells;
 		const double x = side * static_cast<double>(i / 2 % static_cast<std::size_t>(cells));
 		const double y = side * static_cast<double>(i / 2 / static_cast<std::size_t>(cells));
-		const Point2 a{x, y}, b{x + side, y}, c{x + side, y + side}, d{x, y + side};
-		atlas[order[i]] = i % 2 == 0 ? Triangle2{a, b, c} : Triangle2{a, c, d};
+		atlas[order[i]] = box(x, y, side, side)[i % 2];
 	}
 	return atlas;
-}
-
-/// A square of two triangles from (x, y).
-inline std::vector<Triangle2> box(double x, double y, double width, double height)
-{
-	const Point2 a{x, y}, b{x + width, y}, c{x + width, y + height}, d{x, y + height};
-	return {Triangle2{a, b, c}, Triangle2{a, c, d}};
 }
 
 /// Every triangle by itself, with another map in place of each corner.

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_TESTS_REFINEMENT_CHECK_H
-#define RICCI_TESTS_REFINEMENT_CHECK_H
+#ifndef RICCI_TESTS_MAP_CHECK_H
+#define RICCI_TESTS_MAP_CHECK_H
 
-#include <ricci/layout/flat_mesh.h>
+#include <ricci/layout/parametrization.h>
 #include <ricci/mesh/elements.h>
 #include <ricci/mesh/surface_mesh.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <vector>
 
 namespace ricci::testing {
@@ -23,9 +20,9 @@ inline double weightOf(const SurfacePoint& p, Vertex v)
 	return weight;
 }
 
-/// What can be seen of a refinement of a mesh in the plane without knowing how it was made. All faces of the
-/// mesh must be coherently oriented.
-struct RefinementCheck
+/// What can be seen of a map to the plane, of a mesh or its refinement, without knowing how it was made. All faces
+/// of the mesh must be coherently oriented.
+struct MapCheck
 {
 	double areaError = 0.0;   ///< relative: pieces of an input face against the face, in space
 	double minWeight = 0.0;   ///< barycentric, in the input face of the piece; -1 if not in it
@@ -35,7 +32,7 @@ struct RefinementCheck
 	/// Relative difference of an edge's lengths on its two sides, past what rounding of the places
 	/// accounts for: an edge that is tiny in the map has no more digits.
 	double seamMismatch = 0.0;
-	int seamEdges = 0;
+	int seamEdges = 0;       ///< whose two sides lie at different places
 	int seamsInside = 0;     ///< edges whose sides lie apart and that are not part of an input edge
 	double angleError = 0.0; ///< at inner points, against 2 pi less \p curvature there
 	double area = 0.0;       ///< in the plane
@@ -43,21 +40,11 @@ struct RefinementCheck
 	int boundaryLoops = 0;
 
 	/// \param curvature [vertex of mesh]
-	RefinementCheck(
-		const SurfaceMesh& mesh, const FlatMesh& map, const std::vector<double>& curvature);
+	MapCheck(const SurfaceMesh& mesh, const FlatMesh& map, const std::vector<double>& curvature);
 
-	/// Expects that the refinement is one of a surface of this kind, that its seams fit, and that no triangle is
-	/// flipped.
-	/// \param curvatureError radians, of the metric: an angle moves what is up to ten thousand edges away
-	void expectValid(int chi, int loops, double curvatureError = 0.0) const
+	MapCheck(const SurfaceMesh& mesh, const Parametrization& map) :
+			MapCheck(mesh, map.mesh, map.targetCurvature)
 	{
-		EXPECT_EQ(notPositive, 0);
-		EXPECT_LT(seamMismatch, std::max(1e-9, 1e4 * curvatureError));
-		EXPECT_GE(minWeight, -1e-12);
-		EXPECT_LT(weightError, 1e-14);
-		EXPECT_EQ(seamsInside, 0);
-		EXPECT_EQ(eulerCharacteristic, chi);
-		EXPECT_EQ(boundaryLoops, loops);
 	}
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "refinement_check.h"
+#include "map_check.h"
 
 #include "complex.h"
 #include "shapes.h"
@@ -60,7 +60,7 @@ std::vector<int> support(const SurfacePoint& p)
 
 } // namespace
 
-RefinementCheck::RefinementCheck(
+MapCheck::MapCheck(
 	const SurfaceMesh& mesh, const FlatMesh& map, const std::vector<double>& curvature)
 {
 	std::vector<Point3> space;
