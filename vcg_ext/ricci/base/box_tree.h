@@ -35,14 +35,8 @@ public:
 		build(items, boxes, 0, items.size(), 0);
 	}
 
-	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
-	template<class Visit>
-	void meetingPairs(const Visit& visit) const
-	{
-		meetingPairs(visit, [](int, int) { return false; });
-	}
-
-	/// The same without the pairs that lie in two nodes for which areApart(node, node).
+	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common, without those in two nodes
+	/// for which areApart(node, node).
 	template<class Visit, class AreApart>
 	void meetingPairs(const Visit& visit, const AreApart& areApart) const
 	{
