@@ -364,14 +364,7 @@ double ConeModel::minEnergyAt(int i, Vertex v) const
 	return fit.lowest + k * (k / pivot + 2.0 * fit.multipliers[i]) - slope * slope / beyond;
 }
 
-/// Mean square of the factor of a unit of curvature at \p v.
-double ConeModel::ownProduct(Vertex v)
-{
-	learn(v, v);
-	return m_ownProduct.at(v);
-}
-
-/// Finds ownProduct() of two vertices, or of one that is given twice: two take little longer than one.
+/// Finds m_ownProduct of two vertices, or of one that is given twice: two take little longer than one.
 void ConeModel::learn(Vertex v, Vertex w)
 {
 	std::vector<Vertex> unknown;
@@ -440,7 +433,8 @@ void ConeModel::setRow(int i, Vertex v)
 	for (int k = 0; k < size(); ++k)
 		if (k != i)
 			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
-	m_now.gram(i, i) = ownProduct(v);
+	learn(v, v);
+	m_now.gram(i, i) = m_ownProduct.at(v);
 	m_now.linear[i] = m_start[v];
 }
 

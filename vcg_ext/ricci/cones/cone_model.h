@@ -210,7 +210,6 @@ private:
 	Eigen::VectorXd change(const Eigen::VectorXd& rest) const;
 	void leave(int i);
 	void join(int i);
-	double ownProduct(Vertex v);
 	void learn(Vertex v, Vertex w);
 	Eigen::MatrixXd unitFactors(const std::vector<Vertex>& vertices);
 	Field fieldOf(Vertex v);
@@ -229,7 +228,7 @@ private:
 	double m_startEnergy = 0.0;            // without cones
 	VertexVector m_start;                  // gradient without cones
 	VertexVector m_evenFactor;             // of a curvature of 1 on the whole surface by area
-	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
+	std::map<Vertex, double> m_ownProduct; // mean squares of u of vertices that were tried
 	std::vector<Vertex> m_lastVertices;    // of the last learn()
 	Eigen::MatrixXd m_lastFactors;
 };
