@@ -40,7 +40,7 @@ void addBox(
 	own.reserve(small.size());
 	for (const std::size_t i : small)
 		own.push_back(boxes[i]);
-	const std::vector<Point2> shift = square.placeBoxes(own, square.padding);
+	const std::vector<Point2> shift = sideBySide(own, square.padding);
 	Box2 all;
 	for (std::size_t k = 0; k < small.size(); ++k) {
 		all.add(own[k].min + shift[k]);
