@@ -627,23 +627,6 @@ TEST(Choices, AreThoseThatThereAre)
 	inDisk("finish", 4, &HyperbolicOptions::finish);
 }
 
-TEST(PlacesOfBoxes, AreAsManyAsBoxes)
-{
-	const SurfaceMesh two = sideBySide(rectangle(3, 3, 1.0, 1.0), rectangle(3, 3, 1.0, 1.0), 3.0);
-	for (const std::size_t places : {0u, 1u, 3u}) {
-		Options options;
-		options.normalizeUV = false;
-		options.placeBoxes = [&](const std::vector<Box2>&, double) {
-			return std::vector<Point2>(places, Point2{0.0, 0.0});
-		};
-		const auto refusal =
-			refusalOf<InvalidOption>([&] { parametrizeEuclidean(two, {}, options); });
-		EXPECT_EQ(refusal.problem, InvalidOption::BoxPlaces);
-		EXPECT_EQ(refusal.value, places);
-		EXPECT_EQ(refusal.count, 2u);
-	}
-}
-
 /// Beside a vertex so far away no face has an area that doubles can tell from 0.
 TEST(Coordinates, ThatDifferByMoreThanDoublesHoldAreNamed)
 {

@@ -69,7 +69,6 @@ std::string inWords(const ricci::InvalidOption& e)
 	switch (e.problem) {
 	case Error::NoSuchChoice:
 	case Error::MemoryLimit:
-	case Error::BoxPlaces:
 	case Error::ChartMargin:
 	case Error::WithoutPositions:
 		return reported(e);

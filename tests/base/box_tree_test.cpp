@@ -28,6 +28,7 @@ std::vector<Box2> randomBoxes(int n, Random& random)
 
 /// No node is left out.
 constexpr auto kEverywhere = [](int) { return false; };
+constexpr auto kNoneApart = [](int, int) { return false; };
 
 TEST(BoxTree, FindsEachPairOfBoxesThatMeetOnce)
 {
@@ -42,9 +43,11 @@ TEST(BoxTree, FindsEachPairOfBoxesThatMeetOnce)
 					b.min[1] < a.max[1])
 					expected.push_back({i, j});
 			}
-		BoxTree(boxes).meetingPairs([&](int i, int j) {
-			found.push_back({std::min(i, j), std::max(i, j)});
-		});
+		BoxTree(boxes).meetingPairs(
+			[&](int i, int j) {
+				found.push_back({std::min(i, j), std::max(i, j)});
+			},
+			kNoneApart);
 		std::sort(found.begin(), found.end());
 		EXPECT_EQ(found, expected);
 		EXPECT_EQ(expected.empty(), n < 40) << n;
@@ -83,7 +86,7 @@ TEST(BoxTree, OfManyEqualBoxes)
 	box.add(Point2{4.0, 3.0});
 	const BoxTree tree(std::vector<Box2>(100, box));
 	int pairs = 0;
-	tree.meetingPairs([&](int, int) { ++pairs; });
+	tree.meetingPairs([&](int, int) { ++pairs; }, kNoneApart);
 	EXPECT_EQ(pairs, 100 * 99 / 2);
 	EXPECT_EQ(tree.extent(), 3.0);
 	EXPECT_EQ(BoxTree({}).extent(), 0.0);

@@ -102,7 +102,6 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 	std::map<int, std::vector<std::string>> numbers = {
 		{InvalidOption::TimeLimit, {"-17"}},
 		{InvalidOption::MemoryLimit, {"-17"}},
-		{InvalidOption::BoxPlaces, {"-17", "61"}},
 		{InvalidOption::Epsilon, {"-17"}},
 		{InvalidOption::SharpAngle, {"-974.0"}},
 		{InvalidOption::ConeCount, {"-17"}},

@@ -154,8 +154,8 @@ TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
 		Distances d;
 		for (const Vertex i : chosen.indices()) {
 			const auto way = [&](Vertex from, const auto& visit) {
-				for (const ConeSites::Way& w : sites.ways(from))
-					visit(w.to, w.length, from);
+				for (const auto& [to, length] : sites.ways(from))
+					visit(to, length, from);
 			};
 			const auto distance =
 				shortestPaths<Vertex, Vertex>(sites.toCut().size(), {placeOf(i)}, way).distances();

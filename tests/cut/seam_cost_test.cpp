@@ -119,7 +119,7 @@ TEST(SeamCost, KeepsSeamsOffDiagonals)
 		before += isDiagonal[e] && any.isCut[e];
 		after += isDiagonal[e] && cut.isCut[e];
 	}
-	EXPECT_GE(cut.edgeCount, any.edgeCount);
+	EXPECT_GE(cut.edgeCount(), any.edgeCount());
 	EXPECT_GT(before, 0);
 	EXPECT_EQ(after, 0);
 	// Diagonals are what they were without any polygon.

@@ -84,7 +84,7 @@ CoveredTwice::CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vec
 		for (const Place& p : place[f])
 			boxes.back().add(Point2{static_cast<double>(p[0]), static_cast<double>(p[1])});
 	}
-	BoxTree(boxes).meetingPairs([&](int i, int j) {
+	const auto compare = [&](int i, int j) {
 		const int f = proper[at(i)], g = proper[at(j)];
 		bool over = true;
 		const double depth = std::min(
@@ -95,7 +95,8 @@ CoveredTwice::CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vec
 			++betweenCharts;
 		else
 			withinCharts += depth > kContact;
-	});
+	};
+	BoxTree(boxes).meetingPairs(compare, [](int, int) { return false; });
 }
 
 } // namespace ricci::testing

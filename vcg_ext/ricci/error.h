@@ -79,7 +79,6 @@ public:
 		NoSuchChoice,           ///< value of \ref name; its choices have the numbers below bound
 		TimeLimit,              ///< value in seconds; must not be negative
 		MemoryLimit,            ///< value in bytes; must not be negative
-		BoxPlaces,              ///< value: places that PlaceBoxes gave for count boxes
 		Epsilon,                ///< value; must be above 0
 		SharpAngle,             ///< value in radians; must be above 0 and at most pi
 		ConeCount,              ///< value; must not be negative

@@ -253,7 +253,7 @@ Parametrization withoutMap(
 	report.expectedSpread = target.expectedSpread;
 	report.endedEarly = log.endedEarly;
 	report.cones = static_cast<int>(std::count(cut.cones.begin(), cut.cones.end(), 1));
-	report.seamEdges = cut.edgeCount;
+	report.seamEdges = cut.edgeCount();
 	for (const Edge e : cut.isCut.indices())
 		report.seamLength += cut.isCut[e] ? domain.surface.lengths[e] : 0.0;
 	return part;

@@ -198,9 +198,9 @@ PlaneMap layOut(
 	SurfaceLayout layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
 	if (domain.surface.topology.type.boundaryLoops - domain.holes > 1) {
 		// A hole round which the metric closes needs no seam.
-		const int edges = cut.edgeCount;
+		const int edges = cut.edgeCount();
 		dropSeamsToHoles(t, loopsThatClose(t, layout.corners, cut.isCut), cut);
-		if (cut.edgeCount < edges)
+		if (cut.edgeCount() < edges)
 			layout =
 				layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
 	}

@@ -204,6 +204,9 @@ FlatMesh meshOf(const Component& component)
 	return mesh;
 }
 
+/// The map that a component has, in the \p mesh that meshOf() makes of it, as one chart: no flow, no cones.
+/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
+/// \pre its coordinates are finite
 Parametrization chartOf(const Component& component, bool turns, FlatMesh mesh)
 {
 	Parametrization map;
@@ -226,15 +229,7 @@ void scaleForLeastEnergy(FlatMesh& mesh)
 			p *= std::pow(back / forth, 0.25);
 }
 
-/// The map that a component has, one chart in the component's numbers, as it is: no flow, no cones.
-/// \param turns whether it is turned, with its smallest bounding rectangle along the axes
-/// \pre its coordinates are finite
-Parametrization givenMap(const Component& component, bool turns)
-{
-	return chartOf(component, turns, meshOf(component));
-}
-
-/// The same where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
+/// That map where Automatic may take it: at the scale of least energy, turned over if it is mirrored.
 /// \return none if the component has none, or one with flipped or overlapping faces
 std::optional<Parametrization> rightGivenMap(const Component& component)
 {
@@ -297,7 +292,7 @@ Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	if (options.charts == Charts::AsGiven)
-		return givenMap(component, options.turns == ChartTurns::Free);
+		return chartOf(component, options.turns == ChartTurns::Free, meshOf(component));
 	// A refinement costs less than is expected, which is fitted to straight edges: there the maps decide.
 	const bool keepsMesh = options.output == OutputTriangulation::KeepMesh;
 	if (needsNoFlow(options) && keepsMesh)

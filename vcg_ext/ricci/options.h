@@ -3,10 +3,6 @@
 #define RICCI_OPTIONS_H
 
 #include "base/numbers.h"
-#include "base/points.h"
-
-#include <functional>
-#include <vector>
 
 namespace ricci {
 
@@ -148,12 +144,6 @@ constexpr double kMaxChartMargin = 0.25;
 /// Tiles side by side, and at most.
 constexpr int kTilesInRow = 10, kMaxTiles = 100;
 
-/// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
-/// \p padding >= 0 between any two. One box alone stays where it is. Neither turns nor scales. As many translations
-/// as boxes, or the run ends with InvalidOption BoxPlaces.
-using PlaceBoxes =
-	std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double padding)>;
-
 /// How charts may be turned while they are packed.
 enum class ChartTurns {
 	None,    ///< as the layout leaves them
@@ -175,9 +165,6 @@ struct PackOptions
 
 	/// Rectangle allows none, quarter turns across seams right angles only.
 	ChartTurns turns = ChartTurns::Free;
-
-	/// Close together in about a square where there is none, see sideBySide().
-	PlaceBoxes placeBoxes;
 
 	/// Side of a tile, in the unit of the surface's lengths: the charts, which together have the surface's area, are
 	/// packed into as many tiles as they need, and those that are too long for one are cut if they may be. Tile n is

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -33,14 +35,8 @@ public:
 		build(items, boxes, 0, items.size(), 0);
 	}
 
-	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
-	template<class Visit>
-	void meetingPairs(const Visit& visit) const
-	{
-		meetingPairs(visit, [](int, int) { return false; });
-	}
-
-	/// The same without the pairs that lie in two nodes for which areApart(node, node).
+	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common, without those in two nodes
+	/// for which areApart(node, node).
 	template<class Visit, class AreApart>
 	void meetingPairs(const Visit& visit, const AreApart& areApart) const
 	{
@@ -132,11 +128,7 @@ private:
 		bool isLeaf() const { return left < 0; }
 	};
 
-	struct Item
-	{
-		Point2 centre;
-		int number;
-	};
+	using Item = std::pair<Point2, int>; ///< centre and number of a box
 
 	static constexpr int kLeaf = 4; // boxes
 	/// Boxes of which each half is worth a thread's help: a millisecond.
@@ -157,15 +149,15 @@ private:
 		node.last = last;
 		if (last - first <= kLeaf) {
 			for (int i = first; i < last; ++i) {
-				m_order[i] = items[i].number;
-				m_boxes[i] = boxes[positionOf(items[i].number)];
+				m_order[i] = items[i].second;
+				m_boxes[i] = boxes[positionOf(m_order[i])];
 				node.box.add(m_boxes[i]);
 			}
 			return index + 1;
 		}
 		Box2 centres;
 		for (int i = first; i < last; ++i)
-			centres.add(items[i].centre);
+			centres.add(items[i].first);
 		const std::size_t axis = centres.width() >= centres.height() ? 0 : 1;
 		const int middle = first + (last - first) / 2;
 		std::nth_element(
@@ -173,8 +165,7 @@ private:
 			items.begin() + middle,
 			items.begin() + last,
 			[axis](const Item& x, const Item& y) {
-				const double a = x.centre[axis], b = y.centre[axis];
-				return a != b ? a < b : x.number < y.number;
+				return std::tie(x.first[axis], x.second) < std::tie(y.first[axis], y.second);
 			});
 		node.left = index + 1;
 		int after = 0;

@@ -73,9 +73,6 @@ std::string words(const InvalidOption& e)
 		return "The time limit must be 0 seconds or more, not " + number(e.value);
 	case InvalidOption::MemoryLimit:
 		return "The memory limit must be 0 bytes or more, not " + number(e.value);
-	case InvalidOption::BoxPlaces:
-		return "The packer gave " + number(e.value) + " places for " + std::to_string(e.count) +
-			   " boxes";
 	case InvalidOption::Epsilon:
 		return "The requested curvature error must be greater than 0 radians, not " +
 			   number(e.value);

@@ -82,10 +82,9 @@ template<class Own, class Help>
 void withHelpers(int helpers, const Own& own, const Help& help)
 {
 	HelpFlag flag;
-	const double memory = Task::memoryLimit();
 	std::exception_ptr ofOwn, ofHelp;
 	const auto unlessEnded = [&](const auto& run, std::exception_ptr& thrown) {
-		const HelpGuard guard(flag, memory);
+		const HelpFlag* before = HelpFlag::exchange(&flag);
 		try {
 			run();
 		}
@@ -95,6 +94,7 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 			if (!flag.end() || &thrown == &ofOwn) // the caller's comes first
 				thrown = std::current_exception();
 		}
+		HelpFlag::exchange(before);
 	};
 	const auto asHelper = [&] { unlessEnded(help, ofHelp); };
 	{

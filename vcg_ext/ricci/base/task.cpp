@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ricci {
 
@@ -10,7 +11,6 @@ namespace {
 
 thread_local Task* current = nullptr;
 thread_local const HelpFlag* helpFlag = nullptr;
-thread_local double helperMemoryLimit = 0.0;
 
 /// Bytes for each face of the mesh; for each face of the component at work; and the same for each
 /// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 1e6 faces
@@ -66,7 +66,7 @@ double Task::memoryLimit()
 	for (const Task* task = current; task; task = task->m_outer)
 		if (task->m_memory > 0.0)
 			return task->m_memory;
-	return helperMemoryLimit;
+	return helpFlag ? helpFlag->m_memory : 0.0;
 }
 
 double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines)
@@ -161,7 +161,7 @@ void logLines(const std::vector<std::string>& lines)
 		logLine(line);
 }
 
-HelpFlag::HelpFlag() : m_outer(helpFlag)
+HelpFlag::HelpFlag() : m_outer(helpFlag), m_memory(Task::memoryLimit())
 {
 }
 
@@ -173,17 +173,9 @@ bool HelpFlag::isEnded() const
 	return false;
 }
 
-HelpGuard::HelpGuard(const HelpFlag& flag, double memoryLimit) :
-		m_outerFlag(helpFlag), m_outerMemoryLimit(helperMemoryLimit)
+const HelpFlag* HelpFlag::exchange(const HelpFlag* flag)
 {
-	helpFlag = &flag;
-	helperMemoryLimit = memoryLimit;
-}
-
-HelpGuard::~HelpGuard()
-{
-	helpFlag = m_outerFlag;
-	helperMemoryLimit = m_outerMemoryLimit;
+	return std::exchange(helpFlag, flag);
 }
 
 } // namespace ricci

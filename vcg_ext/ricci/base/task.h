@@ -116,7 +116,7 @@ struct HelpEnded
 };
 
 /// Whether the help of some threads is of no use any more; for parallel.h. Help within help, which the thread that
-/// makes it may give, is of no use then, too.
+/// makes it may give, is of no use then, too. The task's memory limit holds for all who help.
 class HelpFlag
 {
 public:
@@ -128,23 +128,15 @@ public:
 	bool end() { return m_ended.exchange(true); }
 	bool isEnded() const;
 
+	/// Makes \p flag that of the calling thread. \return that which it had, null for none
+	static const HelpFlag* exchange(const HelpFlag* flag);
+
 private:
+	friend class Task;
+
 	std::atomic<bool> m_ended{false};
 	const HelpFlag* m_outer;
-};
-
-/// What a thread works for while it helps with the task of another one.
-class HelpGuard
-{
-public:
-	HelpGuard(const HelpFlag& flag, double memoryLimit);
-	~HelpGuard();
-	HelpGuard(const HelpGuard&) = delete;
-	HelpGuard& operator=(const HelpGuard&) = delete;
-
-private:
-	const HelpFlag* m_outerFlag;
-	double m_outerMemoryLimit;
+	double m_memory;
 };
 
 /// What \p action() returns. An error is not a result, but is logged; a stop of the run is a stop.

@@ -6,6 +6,7 @@
 #include "../numerics/min_cut.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -150,12 +151,8 @@ private:
 		});
 	}
 
-	/// Triangles around others.
-	struct Surroundings
-	{
-		std::vector<int> inner; ///< all their neighbours are inner ones or on the rim
-		std::vector<int> rim;
-	};
+	/// Triangles around others: inner ones, all of whose neighbours are such or on the rim, and the rim.
+	using Surroundings = std::array<std::vector<int>, 2>;
 
 	/// Those nearest to marked triangles.
 	/// \return none if they reach triangles that are marked otherwise
@@ -182,31 +179,32 @@ private:
 		if (isMet)
 			return std::nullopt;
 		const auto rim = near.begin() + static_cast<std::ptrdiff_t>(head);
-		return Surroundings{{near.begin(), rim}, {rim, near.end()}};
+		return Surroundings{std::vector<int>(near.begin(), rim), std::vector<int>(rim, near.end())};
 	}
 
 	/// The least cut between triangles and the rim around them. \return the side of the triangles
 	MinCut::Side cutRound(const std::vector<int>& triangles, const Surroundings& near)
 	{
+		const auto& [inner, rim] = near;
 		const Terminal own = m_terminal[triangles.front()];
-		for (const int i : near.inner)
+		for (const int i : inner)
 			m_scratch[i] = 0;
-		for (const int i : near.rim) {
+		for (const int i : rim) {
 			m_scratch[i] = 0;
 			m_terminal[i] = own == kSource ? kSink : kSource;
 		}
-		MinCut::Side side = minCut(triangles, near.rim, [&](int i) { return m_scratch[i] >= 0; });
+		MinCut::Side side = minCut(triangles, rim, [&](int i) { return m_scratch[i] >= 0; });
 		if (!side.isOfSources) {
 			for (const int i : side.nodes)
 				m_scratch[i] = -1;
 			side.nodes.clear();
-			for (const int i : near.inner)
+			for (const int i : inner)
 				if (m_scratch[i] >= 0)
 					side.nodes.push_back(i);
 		}
-		for (const int i : near.inner)
+		for (const int i : inner)
 			m_scratch[i] = -1;
-		for (const int i : near.rim) {
+		for (const int i : rim) {
 			m_scratch[i] = -1;
 			m_terminal[i] = kNoTerminal;
 		}

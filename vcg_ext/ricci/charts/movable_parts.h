@@ -63,7 +63,6 @@ public:
 			if (!m_all)
 				m_origins.push_back({triangles, BoxTree(boxes)});
 		}
-		m_onePlace = kTiny * whole.extent();
 		m_touching = kTiny * whole.extent();
 		commit();
 	}
@@ -120,8 +119,8 @@ public:
 	bool fits(const Motion& motion, Corner side) const
 	{
 		const auto own = endsOf(side), other = endsOf(m_chart.across[side]);
-		return distance(motion(own[0]), other[1]) <= m_onePlace &&
-			   distance(motion(own[1]), other[0]) <= m_onePlace;
+		return distance(motion(own[0]), other[1]) <= m_touching &&
+			   distance(motion(own[1]), other[0]) <= m_touching;
 	}
 
 	/// Whether a side and the one across are at one place in one part.
@@ -324,8 +323,8 @@ private:
 	}
 
 	const FlatMesh& m_chart;
-	const BoxTree* m_all; // of all triangles where they were in the beginning, or none
-	double m_onePlace = 0.0, m_touching = 0.0;
+	const BoxTree* m_all;     // of all triangles where they were in the beginning, or none
+	double m_touching = 0.0;  // what is nearer is at one place
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise
 	Array<int> m_part;        // [triangle]

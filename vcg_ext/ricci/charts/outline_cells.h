@@ -334,12 +334,9 @@ private:
 
 	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
 
-	/// Half of a run, for a shape in the corner: where the x begin at which it meets cells that are taken.
-	struct Blocker
-	{
-		std::ptrdiff_t word; ///< from the start of the row of the shape's corner
-		int bit;
-	};
+	/// Half of a run, for a shape in the corner: where the x begin at which it meets cells that are taken, as a word from
+	/// the start of the row of the shape's corner and a bit.
+	using Blocker = std::pair<std::ptrdiff_t, int>;
 	Blocker blockerAt(const Run& run, int first) const
 	{
 		const std::ptrdiff_t row = run.row * m_levels + run.level;
@@ -358,8 +355,8 @@ private:
 			if (last < kWordBits)
 				blocked |= ~std::uint64_t{0} << last;
 			for (std::size_t k = 0; k < m_blockers.size() && ~blocked != 0; ++k) {
-				for (const Blocker& half : m_blockers[k])
-					blocked |= bitsFrom(row + half.word + i, half.bit);
+				for (const auto& [word, bit] : m_blockers[k])
+					blocked |= bitsFrom(row + word + i, bit);
 				++m_work;
 				if (~blocked == 0)
 					std::swap(m_blockers[k], m_blockers[k / 2]); // it blocks the next ones, too

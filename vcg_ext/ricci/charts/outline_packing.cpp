@@ -7,6 +7,7 @@
 #include "outline_cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -55,14 +56,9 @@ Order orderOf(const std::vector<Outline>& outlines, double side)
 		Box2 box;
 		for (const auto& ends : outline)
 			box.add(ends[0]);
-		areas.push_back(roundedShare(areaOf(outline) + box.area(), side * side));
+		areas.push_back(areaOf(outline) + box.area());
 	}
-	Order order(outlines.size());
-	std::iota(order.begin(), order.end(), std::size_t{0});
-	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return areas[a] > areas[b];
-	});
-	return order;
+	return largestFirst(std::move(areas), side * side);
 }
 
 std::complex<double> turnToMinExtent(const Outline& outline)
@@ -179,6 +175,18 @@ std::vector<std::vector<Shape>> shapesOf(
 }
 
 } // namespace
+
+std::vector<std::size_t> largestFirst(std::vector<double> sizes, double whole)
+{
+	std::vector<std::size_t> order(sizes.size());
+	std::iota(order.begin(), order.end(), std::size_t{0});
+	for (double& size : sizes)
+		size = std::round(1e9 * size / whole);
+	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return sizes[a] > sizes[b];
+	});
+	return order;
+}
 
 int coarseCells(std::size_t outlines)
 {

@@ -7,7 +7,6 @@
 #include "../options.h"
 
 #include <array>
-#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <utility>
@@ -15,12 +14,9 @@
 
 namespace ricci {
 
-/// A length or an area as a share of \p whole, without the digits in which equal ones may differ: for orders that
-/// are the same on every machine.
-inline double roundedShare(double x, double whole)
-{
-	return std::round(1e9 * x / whole);
-}
+/// The numbers of lengths or areas, those of the largest first. They count as shares of \p whole, without the digits in
+/// which equal ones may differ, so that the order is the same on every machine.
+std::vector<std::size_t> largestFirst(std::vector<double> sizes, double whole);
 
 /// The border of a chart: straight sides from one point to the next, the chart on the left of each.
 using Outline = std::vector<std::array<Point2, 2>>;

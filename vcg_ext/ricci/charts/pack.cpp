@@ -54,7 +54,7 @@ struct Packing
 
 /// By boxes alone.
 /// \return without motions where they do not fit with the margin
-Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxes& placeBoxes)
+Packing packBoxes(const std::vector<Box2>& boxes, double margin)
 {
 	// The margin is a share of a square that grows with the margin.
 	Packing packing;
@@ -64,7 +64,7 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 			return {};
 		packing = {};
 		packing.padding = (1.0 + kMarginSpare) * margin * size;
-		const std::vector<Point2> shift = placeBoxes(boxes, packing.padding);
+		const std::vector<Point2> shift = sideBySide(boxes, packing.padding);
 		for (std::size_t i = 0; i < boxes.size(); ++i) {
 			packing.whole.add(boxes[i].min + shift[i]);
 			packing.whole.add(boxes[i].max + shift[i]);
@@ -147,40 +147,24 @@ void requireFloats(const Array<Point2>& places)
 		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
 
-/// The packer of boxes that was asked for.
-/// \throw InvalidOption BoxPlaces when it is called and gives another number of places
-PlaceBoxes checkedPlaces(const PackOptions& options)
-{
-	return [asked = options.placeBoxes ? options.placeBoxes : PlaceBoxes(sideBySide)](
-			   const std::vector<Box2>& boxes, double padding) {
-		std::vector<Point2> places = asked(boxes, padding);
-		if (places.size() != boxes.size())
-			throw InvalidOption(
-				InvalidOption::BoxPlaces, static_cast<double>(places.size()), 0.0, boxes.size());
-		return places;
-	};
-}
-
 /// packCharts() into the unit square, without cuts.
 void packIntoSquare(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	const ChartsToPack charts = chartsToPack(options, turns, map.charts.size(), map.mesh);
 	const std::vector<Box2>& boxes = charts.boxes;
-	const PlaceBoxes placeBoxes = checkedPlaces(options);
 	double margin = options.chartMargin;
-	Packing packing = packBoxes(boxes, margin, placeBoxes);
+	Packing packing = packBoxes(boxes, margin);
 	while (packing.motions.empty())
-		packing = packBoxes(boxes, margin *= 0.5, placeBoxes);
+		packing = packBoxes(boxes, margin *= 0.5);
 	map.report.margin = margin;
 	if (charts.turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && (charts.isThin.front() || options.turns == ChartTurns::Quarter))) {
 		const double padding = std::max(packing.padding, kMinPadding * packing.side());
-		Packing turned = boxes.size() == 1
-							 ? packAlone(map.mesh, charts.isUpright.front() != 0)
-							 : packByOutlines(
-								   map.mesh,
-								   charts,
-								   {packing.side(), padding, boxes.size(), kInfinity, placeBoxes});
+		Packing turned =
+			boxes.size() == 1
+				? packAlone(map.mesh, charts.isUpright.front() != 0)
+				: packByOutlines(
+					  map.mesh, charts, {packing.side(), padding, boxes.size(), kInfinity});
 		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
 		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
@@ -308,15 +292,13 @@ public:
 			if (m_charts.turns == ChartTurns::Free && boxes[i].extent() > m_room)
 				m_charts.isUpright[i] = 0;
 		const double side = 1.0 - m_padding;
-		const PlaceBoxes placeBoxes = checkedPlaces(m_options);
 		const PackItems items = packItems(
 			m_map.mesh,
 			m_charts,
 			{side,
 			 m_padding,
 			 outlinesPerSquare(boxes.size(), m_map.mesh.planeArea()),
-			 kLongestBox,
-			 placeBoxes});
+			 kLongestBox});
 		const auto places = packIntoTiles(items.outlines, items.turns, side, m_padding);
 		if (places.empty())
 			throw InternalError("A chart does not fit into a tile");

@@ -38,7 +38,7 @@ bool marginsMayFit(std::size_t charts, double margin);
 ///
 /// Without PackOptions::normalizeUV all this is scaled back to the size that the charts had. A single chart then is not
 /// turned.
-/// \throw InvalidOption ChartMargin, BoxPlaces, TileSide for a chart that is too long and cannot be cut, more than
+/// \throw InvalidOption ChartMargin, TileSide for a chart that is too long and cannot be cut, more than
 /// kMaxTiles tiles, or tiles too large for floats; InvalidMesh BeyondFloats if coordinates that keep their scale are too
 /// large or too small for float, in which they will be stored
 void packCharts(

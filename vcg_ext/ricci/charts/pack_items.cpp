@@ -40,7 +40,7 @@ void addBox(
 	own.reserve(small.size());
 	for (const std::size_t i : small)
 		own.push_back(boxes[i]);
-	const std::vector<Point2> shift = square.placeBoxes(own, square.padding);
+	const std::vector<Point2> shift = sideBySide(own, square.padding);
 	Box2 all;
 	for (std::size_t k = 0; k < small.size(); ++k) {
 		all.add(own[k].min + shift[k]);
@@ -108,11 +108,10 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 			box.max[k] += 0.5 * padding;
 		}
 	const double root = leastSquare(boxes), gap = 1e-6 * root;
-	std::vector<std::size_t> order(boxes.size()); // the highest first
-	std::iota(order.begin(), order.end(), std::size_t{0});
-	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return roundedShare(boxes[a].height(), root) > roundedShare(boxes[b].height(), root);
-	});
+	std::vector<double> heights;
+	for (const Box2& box : boxes)
+		heights.push_back(box.height());
+	const std::vector<std::size_t> order = largestFirst(std::move(heights), root);
 	auto best = onShelves(boxes, order, root, gap);
 	for (int i = 1; i < kWidths; ++i)
 		if (auto next = onShelves(boxes, order, (1.0 + kWiderRow * i) * root, gap);
@@ -248,13 +247,10 @@ chartsToPack(const PackOptions& options, ChartTurns turns, std::size_t count, Fl
 PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square)
 {
 	const std::vector<Box2>& boxes = charts.boxes;
-	std::vector<std::size_t> order(boxes.size());
-	std::iota(order.begin(), order.end(), std::size_t{0});
-	const auto area = [&](std::size_t i) { return boxes[i].area(); };
-	const double whole = square.side * square.side;
-	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return roundedShare(area(a), whole) > roundedShare(area(b), whole);
-	});
+	std::vector<double> areas;
+	for (const Box2& box : boxes)
+		areas.push_back(box.area());
+	const std::vector<std::size_t> order = largestFirst(areas, square.side * square.side);
 	std::vector<std::size_t> large, small;
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
 	const double least = kMinOutlineCells * square.side / coarseCells(square.charts);
@@ -262,7 +258,7 @@ PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const Pack
 		const bool isLarge =
 			large.size() < kMaxOutlines && !charts.isThin[i] && boxes[i].extent() > least;
 		(isLarge ? large : small).push_back(i);
-		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
+		(isLarge ? areaOfLarge : areaOfSmall) += areas[i];
 	}
 	PackItems items;
 	items.isMostlySmall = large.empty() || areaOfLarge < areaOfSmall;

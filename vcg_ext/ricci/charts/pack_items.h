@@ -54,7 +54,6 @@ struct PackSquare
 	double padding;     ///< between charts
 	std::size_t charts; ///< that it holds
 	double longestBox;  ///< of small charts
-	const PlaceBoxes& placeBoxes;
 };
 
 struct PackItems

@@ -332,32 +332,11 @@ void ConeModel::join(int i)
 	m_now.inverse.noalias() += moved * (moved.transpose() / beyond);
 }
 
-ConeModel::Reach ConeModel::reachOf(Vertex v) const
-{
-	Reach reach{v, Eigen::VectorXd(size() + border()), 0.0};
-	reach.products.head(border()).setOnes();
-	for (int k = 0; k < size(); ++k)
-		reach.products[k + border()] = (*m_fields[k])[v];
-	if (m_now.inverse.rows() > 0)
-		reach.span = reach.products.dot(symmetric(m_now.inverse) * reach.products);
-	return reach;
-}
-
-/// A bound of ownProduct() from below without a linear solution: u is no shorter than what lies in what the
-/// cones span.
-double ConeModel::minOwnProduct(const Reach& reach) const
-{
-	const auto known = m_ownProduct.find(reach.vertex);
-	// Rounding must not raise the bound.
-	return known != m_ownProduct.end() ? known->second : (1.0 - kSmall) * reach.span;
-}
-
-/// A bound from below of the energy with cone \p i there instead, by the minimum without bounds of
+/// A bound from below of the energy with cone \p i at \p v instead, by the minimum without bounds of
 /// curvatures and without rounding.
-/// \param ownProduct of the vertex, or less
 /// \return the lowest number where there is none: that minimum is not known, or the vertex adds nothing to
 /// the other cones
-double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) const
+double ConeModel::minEnergyAt(int i, Vertex v) const
 {
 	const Fit& fit = m_now.fit;
 	const int row = i + border();
@@ -365,25 +344,27 @@ double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) cons
 	const double unknown = -kInfinity;
 	if (!(pivot > 0.0))
 		return unknown;
-	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.minimum[i];
-	const double beyond = ownProduct - reach.span + along * along / pivot;
-	if (!(beyond > kMinPivot * ownProduct))
+	// Of the vertex' u with those of the cones, as a column of the matrix of the fit.
+	Eigen::VectorXd products(size() + border());
+	products.head(border()).setOnes();
+	for (int k = 0; k < size(); ++k)
+		products[k + border()] = (*m_fields[k])[v];
+	// The mean square of what of it lies in what the cones span: all of it has no less, and where no linear
+	// solution has told more, that is the bound. Rounding must not raise it.
+	const double span = products.dot(symmetric(m_now.inverse) * products);
+	const auto known = m_ownProduct.find(v);
+	const double own = known != m_ownProduct.end() ? known->second : (1.0 - kSmall) * span;
+	const double along = m_now.inverse.col(row).dot(products), k = fit.minimum[i];
+	const double beyond = own - span + along * along / pivot;
+	if (!(beyond > kMinPivot * own))
 		return unknown;
 	// Half the slope at the vertex when the others have made up for cone i.
-	double slope =
-		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.minimum) - along * k / pivot;
+	double slope = m_start[v] + products.tail(size()).dot(fit.minimum) - along * k / pivot;
 	slope += border() > 0 ? fit.level : 0.0;
 	return fit.lowest + k * (k / pivot + 2.0 * fit.multipliers[i]) - slope * slope / beyond;
 }
 
-/// Mean square of the factor of a unit of curvature at \p v.
-double ConeModel::ownProduct(Vertex v)
-{
-	learn(v, v);
-	return m_ownProduct.at(v);
-}
-
-/// Finds ownProduct() of two vertices, or of one that is given twice: two take little longer than one.
+/// Finds m_ownProduct of two vertices, or of one that is given twice: two take little longer than one.
 void ConeModel::learn(Vertex v, Vertex w)
 {
 	std::vector<Vertex> unknown;
@@ -452,7 +433,8 @@ void ConeModel::setRow(int i, Vertex v)
 	for (int k = 0; k < size(); ++k)
 		if (k != i)
 			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
-	m_now.gram(i, i) = ownProduct(v);
+	learn(v, v);
+	m_now.gram(i, i) = m_ownProduct.at(v);
 	m_now.linear[i] = m_start[v];
 }
 

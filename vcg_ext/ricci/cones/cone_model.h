@@ -113,15 +113,14 @@ public:
 	{
 		std::vector<Vertex> likely;
 		for (const Vertex v : places)
-			if (const Reach reach = reachOf(v);
-				isLow(v, minEnergyAt(i, reach, minOwnProduct(reach))))
+			if (isLow(v, minEnergyAt(i, v)))
 				likely.push_back(v);
 		const Vertex old = vertex(i);
 		for (std::size_t k = 0; k < likely.size(); ++k) {
 			const Vertex v = likely[k];
 			if (k % 2 == 0)
 				learn(v, likely[std::min(k + 1, likely.size() - 1)]);
-			if (!isLow(v, minEnergyAt(i, reachOf(v), ownProduct(v))))
+			if (!isLow(v, minEnergyAt(i, v)))
 				continue;
 			const Fit before = m_now.fit;
 			VertexVector gradient = std::move(m_gradient);
@@ -188,15 +187,6 @@ private:
 		Fit fit;
 	};
 
-	/// A vertex as what the cones span reaches it.
-	struct Reach
-	{
-		Vertex vertex;
-		Eigen::VectorXd
-			products;      // of its u with those of the cones, as a column of the matrix of the fit
-		double span = 0.0; // of its u, the mean square of what lies in what the cones span
-	};
-
 	/// Gradient field of a unit of curvature at one vertex.
 	using Field = std::shared_ptr<const VertexVector>;
 
@@ -211,9 +201,7 @@ private:
 			0.0, k.dot(symmetric(m_now.gram) * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
 	}
 	int border() const { return hasFixedSum() ? 1 : 0; }
-	Reach reachOf(Vertex v) const;
-	double minOwnProduct(const Reach& reach) const;
-	double minEnergyAt(int i, const Reach& reach, double ownProduct) const;
+	double minEnergyAt(int i, Vertex v) const;
 	Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 	void invert();
 	void findMinimum();
@@ -222,7 +210,6 @@ private:
 	Eigen::VectorXd change(const Eigen::VectorXd& rest) const;
 	void leave(int i);
 	void join(int i);
-	double ownProduct(Vertex v);
 	void learn(Vertex v, Vertex w);
 	Eigen::MatrixXd unitFactors(const std::vector<Vertex>& vertices);
 	Field fieldOf(Vertex v);
@@ -241,7 +228,7 @@ private:
 	double m_startEnergy = 0.0;            // without cones
 	VertexVector m_start;                  // gradient without cones
 	VertexVector m_evenFactor;             // of a curvature of 1 on the whole surface by area
-	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
+	std::map<Vertex, double> m_ownProduct; // mean squares of u of vertices that were tried
 	std::vector<Vertex> m_lastVertices;    // of the last learn()
 	Eigen::MatrixXd m_lastFactors;
 };

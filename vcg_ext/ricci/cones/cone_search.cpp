@@ -99,7 +99,7 @@ std::vector<Vertex> maxGains(
 	std::vector<Vertex> peaks;
 	for (const Vertex v : phi.indices()) {
 		const auto isAbove = [&](const ConeSites::Way& way) {
-			return way.to == v || !isFree(way.to) || isHigher(v, way.to);
+			return way.first == v || !isFree(way.first) || isHigher(v, way.first);
 		};
 		if (isFree(v) && std::all_of(sites.ways(v).begin(), sites.ways(v).end(), isAbove))
 			peaks.push_back(v);
@@ -141,10 +141,9 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	std::vector<Vertex> path{old};
 	for (;;) {
 		Vertex near = path.back();
-		for (const ConeSites::Way& way : sites.ways(path.back()))
-			if (!model.isCone(way.to) && sites.isAllowed(way.to) &&
-				own * whole[way.to] < own * whole[near])
-				near = way.to;
+		for (const auto& [to, length] : sites.ways(path.back()))
+			if (!model.isCone(to) && sites.isAllowed(to) && own * whole[to] < own * whole[near])
+				near = to;
 		if (near == path.back())
 			break;
 		path.push_back(near);
@@ -166,39 +165,23 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	return !best.empty() && best.front() != old && move(model, i, best, present);
 }
 
-/// The sites around others where a cone may lie, nearest first, with the lengths of the shortest ways there. Each is
-/// searched once: most cones stay where they are for several rounds.
-class Surroundings
+/// The sites around \p site where a cone may lie, nearest first, with the lengths of the shortest ways there.
+/// \param far how far they go
+/// \param front scratch
+std::vector<ConeSites::Way>
+sitesAround(const ConeSites& sites, Vertex site, double far, SearchFront<Vertex, Vertex>& front)
 {
-public:
-	/// \param far how far they go
-	Surroundings(const ConeSites& sites, double far) :
-			m_sites(sites), m_far(far), m_front(sites.toCut().size())
-	{
+	std::vector<ConeSites::Way> around;
+	front.clear();
+	front.offer(site, 0.0);
+	for (Vertex v = front.next(far); v.isValid(); v = front.next(far)) {
+		if (sites.isAllowed(v))
+			around.emplace_back(v, front[v]);
+		for (const auto& [to, length] : sites.ways(v))
+			front.offer(to, front[v] + length, v);
 	}
-
-	const std::vector<ConeSites::Way>& of(Vertex site)
-	{
-		const auto [known, isNew] = m_known.try_emplace(site);
-		if (!isNew)
-			return known->second;
-		m_front.clear();
-		m_front.offer(site, 0.0);
-		for (Vertex v = m_front.next(m_far); v.isValid(); v = m_front.next(m_far)) {
-			if (m_sites.isAllowed(v))
-				known->second.push_back({v, m_front[v]});
-			for (const ConeSites::Way& way : m_sites.ways(v))
-				m_front.offer(way.to, m_front[v] + way.length, v);
-		}
-		return known->second;
-	}
-
-private:
-	const ConeSites& m_sites;
-	double m_far;
-	SearchFront<Vertex, Vertex> m_front;
-	std::map<Vertex, std::vector<ConeSites::Way>> m_known;
-};
+	return around;
+}
 
 /// Takes out the cone without which energy and prices fall most. A fit without it tells by how much, of those alone of
 /// which ConeModel::need() does not exclude it.
@@ -247,11 +230,12 @@ bool dropDearest(ConeModel& model, SeamTree& tree)
 
 /// Moves cone \p i to a place around where energy and price of seams are lower.
 /// \param tree without the cone, \p own shorter than with it
+/// \param around sitesAround() the cone
 /// \return whether it has moved
 bool moveNearby(
 	ConeModel& model,
 	const SeamTree& tree,
-	Surroundings& around,
+	const std::vector<ConeSites::Way>& around,
 	int i,
 	double own,
 	double maxEnergy)
@@ -260,7 +244,7 @@ bool moveNearby(
 	const Vertex old = model.vertex(i);
 	const VertexVector& phi = model.gradient();
 	std::vector<std::pair<double, Vertex>> places; // change that is predicted
-	for (const auto& [v, r] : around.of(old)) {
+	for (const auto& [v, r] : around) {
 		if (model.isCone(v))
 			continue;
 		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
@@ -366,12 +350,19 @@ void removeWeakCones(ConeModel& model)
 void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion)
 {
 	const double maxEnergy = 0.25 * maxDistortion * maxDistortion;
-	Surroundings around(sites, std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size())));
+	const double far = std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size()));
+	SearchFront<Vertex, Vertex> front(sites.toCut().size());
+	std::map<Vertex, std::vector<ConeSites::Way>>
+		around; // most cones stay where they are for several rounds
 	for (int round = 0; round < kMaxRounds; ++round) {
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i) {
-			const double own = tree.remove(model.vertex(i));
-			hasMoved |= moveNearby(model, tree, around, i, own, maxEnergy);
+			const Vertex cone = model.vertex(i);
+			const auto [known, isNew] = around.try_emplace(cone);
+			if (isNew)
+				known->second = sitesAround(sites, cone, far, front);
+			const double own = tree.remove(cone);
+			hasMoved |= moveNearby(model, tree, known->second, i, own, maxEnergy);
 			tree.add(model.vertex(i));
 		}
 		if (!hasMoved)

@@ -123,16 +123,15 @@ ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :
 			nearest[v] = nearest[front.parent(v)];
 		if (nearest[v].isValid())
 			m_toCut[nearest[v]] = std::min(m_toCut[nearest[v]], front[v] + fine.m_toCut[v]);
-		for (const Way& way : fine.ways(v))
-			front.offer(way.to, front[v] + way.length, v);
+		for (const auto& [to, length] : fine.ways(v))
+			front.offer(to, front[v] + length, v);
 	}
 	checkpoint();
 	std::vector<std::tuple<Vertex, Vertex, double>> ways; // from, to, length
 	for (const Vertex v : nearest.indices())
-		for (const Way& way : fine.ways(v))
-			if (nearest[v].isValid() && nearest[way.to].isValid() && nearest[v] != nearest[way.to])
-				ways.emplace_back(
-					nearest[v], nearest[way.to], front[v] + way.length + front[way.to]);
+		for (const auto& [to, length] : fine.ways(v))
+			if (nearest[v].isValid() && nearest[to].isValid() && nearest[v] != nearest[to])
+				ways.emplace_back(nearest[v], nearest[to], front[v] + length + front[to]);
 	std::sort(ways.begin(), ways.end());
 	const auto isSamePair = [](const auto& a, const auto& b) {
 		return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b);
@@ -213,18 +212,18 @@ double SeamTree::remove(Vertex cone)
 	}
 	// All whose shortest way led there look for another.
 	for (std::size_t i = 0; i < loose.size(); ++i)
-		for (const ConeSites::Way& way : m_sites->ways(loose[i]))
-			if (m_next[way.to] == loose[i] && m_distance[way.to] < kInfinity) {
-				m_distance[way.to] = kInfinity;
-				loose.push_back(way.to);
+		for (const auto& [to, step] : m_sites->ways(loose[i]))
+			if (m_next[to] == loose[i] && m_distance[to] < kInfinity) {
+				m_distance[to] = kInfinity;
+				loose.push_back(to);
 			}
 	for (const Vertex v : loose) {
 		m_distance[v] = m_sites->toCut()[v];
 		m_next[v] = Vertex();
-		for (const ConeSites::Way& way : m_sites->ways(v))
-			if (m_distance[way.to] + way.length < m_distance[v]) {
-				m_distance[v] = m_distance[way.to] + way.length;
-				m_next[v] = way.to;
+		for (const auto& [to, step] : m_sites->ways(v))
+			if (m_distance[to] + step < m_distance[v]) {
+				m_distance[v] = m_distance[to] + step;
+				m_next[v] = to;
 			}
 	}
 	spread(loose);
@@ -238,9 +237,9 @@ double SeamTree::lengthOfStep(Vertex v) const
 	if (!m_next[v].isValid())
 		return m_sites->toCut()[v] < kInfinity ? m_sites->toCut()[v] : 0.0;
 	double shortest = kInfinity;
-	for (const ConeSites::Way& way : m_sites->ways(v))
-		if (way.to == m_next[v])
-			shortest = std::min(shortest, way.length);
+	for (const auto& [to, step] : m_sites->ways(v))
+		if (to == m_next[v])
+			shortest = std::min(shortest, step);
 	return shortest;
 }
 
@@ -266,11 +265,11 @@ Vertex SeamTree::spread(DistanceQueue<Vertex>& queue, const IsEnd& isEnd)
 		queue.pop();
 		if (distance != m_distance[v])
 			continue;
-		for (const ConeSites::Way& way : m_sites->ways(v))
-			if (distance + way.length < m_distance[way.to]) {
-				m_distance[way.to] = distance + way.length;
-				m_next[way.to] = v;
-				queue.push(m_distance[way.to], way.to);
+		for (const auto& [to, step] : m_sites->ways(v))
+			if (distance + step < m_distance[to]) {
+				m_distance[to] = distance + step;
+				m_next[to] = v;
+				queue.push(m_distance[to], to);
 			}
 	}
 	return {};

@@ -5,6 +5,7 @@
 #include "../base/graphs.h"
 #include "../mesh/component.h"
 
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -14,12 +15,8 @@ namespace ricci {
 class ConeSites
 {
 public:
-	/// A way to a site next to another.
-	struct Way
-	{
-		Vertex to;
-		double length;
-	};
+	/// To a site next to another, and how long it is.
+	using Way = std::pair<Vertex, double>;
 
 	/// The vertices of \p surface and its edges.
 	/// \param vertices cones may lie at vertices with a number below this; -1: at any

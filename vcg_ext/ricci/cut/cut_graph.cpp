@@ -154,11 +154,6 @@ void prune(const ContractedGraph& graph, const VertexArray<char>& terminal, Edge
 	}
 }
 
-int countEdges(const EdgeArray<char>& isCut)
-{
-	return static_cast<int>(std::count(isCut.begin(), isCut.end(), 1));
-}
-
 /// Edges of the cut outside a spanning tree of it.
 std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 {
@@ -263,7 +258,6 @@ CutGraph cutGraphOf(const Triangulation& t, VertexArray<char> cones, EdgeArray<c
 	const ContractedGraph graph(t, noCost);
 	CutGraph cut;
 	cut.isCut = std::move(isCut);
-	cut.edgeCount = countEdges(cut.isCut);
 	cut.generators = generators(graph, cut);
 	cut.cones = std::move(cones);
 	return cut;
@@ -281,7 +275,6 @@ void dropSeamsToHoles(const Triangulation& t, const VertexArray<char>& closes, C
 		if (!closes[n])
 			terminal[n] = 1;
 	prune(graph, terminal, cut.isCut);
-	cut.edgeCount = countEdges(cut.isCut);
 }
 
 std::vector<std::vector<Halfedge>>

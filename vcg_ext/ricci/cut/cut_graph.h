@@ -8,6 +8,7 @@
 #include "../mesh/component.h"
 #include "../mesh/triangulation.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -23,9 +24,9 @@ struct CutGraph
 	/// nowhere else, generate the homology of the surface with every boundary loop filled.
 	std::vector<Edge> generators;
 
-	int edgeCount = 0; ///< edges with isCut 1
-
 	bool isMirrored = false; ///< made by mirroredCut()
+
+	int edgeCount() const { return static_cast<int>(std::count(isCut.begin(), isCut.end(), 1)); }
 };
 
 /// Finds a short cut graph by a tree and a cotree (greedy system of loops

@@ -73,28 +73,20 @@ struct Reading
 	double size;      ///< of the word with one more handle that this gives
 };
 
-/// One more handle, read as above.
+/// One more handle (a, b), read as above.
 /// \param outer conjugation of the rotated word
-struct Handle
+/// \return the conjugation with it, a, b
+std::array<ExtendedIsometry, 3> handleOf(
+	const ExtendedIsometry& outer,
+	const ExtendedIsometry& x,
+	const ExtendedIsometry& p,
+	const ExtendedIsometry& y,
+	const ExtendedIsometry& q,
+	const ExtendedIsometry& r)
 {
-	ExtendedIsometry conjugation, a, b;
-
-	Handle(
-		const ExtendedIsometry& outer,
-		const ExtendedIsometry& x,
-		const ExtendedIsometry& p,
-		const ExtendedIsometry& y,
-		const ExtendedIsometry& q,
-		const ExtendedIsometry& r) :
-			conjugation(outer * r * q)
-	{
-		const ExtendedIsometry back = conjugation.inverse();
-		a = outer * x * back;
-		b = conjugation * p * y * q * back;
-	}
-
-	double size() const { return std::max({sizeOf(conjugation), sizeOf(a), sizeOf(b)}); }
-};
+	const ExtendedIsometry conjugation = outer * r * q, back = conjugation.inverse();
+	return {conjugation, outer * x * back, conjugation * p * y * q * back};
+}
 
 /// Position of the inverse of each letter.
 std::vector<std::size_t> partnersIn(const GroupWord& word, int generators)
@@ -143,8 +135,11 @@ void appendReadings(
 		ExtendedIsometry p;
 		for (std::size_t y = 1; y < x2; ++y) {
 			if (const std::size_t y2 = turned(y); y2 > x2) {
-				const Handle handle(outer, letter[0], p, letter[y], qs[y], rs[y2]);
-				readings.push_back({number, x, y, std::max(word.size, handle.size())});
+				double size = word.size;
+				for (const ExtendedIsometry& m :
+					 handleOf(outer, letter[0], p, letter[y], qs[y], rs[y2]))
+					size = std::max(size, sizeOf(m));
+				readings.push_back({number, x, y, size});
 			}
 			p = p * letter[y];
 		}
@@ -164,7 +159,7 @@ PartlyCanonical withHandle(
 	std::rotate(word.begin(), x, word.end());
 	const std::vector<std::size_t> partner = partnersIn(word, generators.size());
 	const std::size_t y = reading.y, x2 = partner[0], y2 = partner[y];
-	const Handle handle(
+	const auto [conjugation, a, b] = handleOf(
 		outer,
 		isometryOf(word[0], generators),
 		productOf(word, 1, y, generators),
@@ -173,9 +168,9 @@ PartlyCanonical withHandle(
 		productOf(word, x2 + 1, y2, generators));
 	PartlyCanonical step;
 	step.handles = from.handles;
-	step.handles.push_back(handle.a);
-	step.handles.push_back(handle.b);
-	step.conjugation = handle.conjugation;
+	step.handles.push_back(a);
+	step.handles.push_back(b);
+	step.conjugation = conjugation;
 	step.size = reading.size;
 	const auto append = [&](std::size_t begin, std::size_t end) {
 		for (std::size_t i = begin; i < end; ++i)
@@ -326,8 +321,8 @@ public:
 	/// \return false if no move is worth it
 	bool improve()
 	{
-		m_best.letters.clear();
-		m_best.condition = kWorthMoving * m_condition;
+		m_letters.clear();
+		m_best = kWorthMoving * m_condition;
 		for (std::size_t i = 0; i < m_handles.size(); i += 2) {
 			considerOnHandle(i);
 			if (i + 2 < m_handles.size())
@@ -335,12 +330,12 @@ public:
 		}
 		if (m_isClosed)
 			considerConjugations();
-		if (m_best.letters.empty())
+		if (m_letters.empty())
 			return false;
 		std::copy(
-			m_best.letters.begin(),
-			m_best.letters.end(),
-			m_handles.begin() + static_cast<std::ptrdiff_t>(m_best.first));
+			m_letters.begin(),
+			m_letters.end(),
+			m_handles.begin() + static_cast<std::ptrdiff_t>(m_first));
 		std::copy(m_handles.begin(), m_handles.end(), m_generators.begin());
 		closeRelation(m_word, m_tail, m_generators);
 		std::copy(m_generators.begin(), m_generators.end(), m_handles.begin());
@@ -349,14 +344,6 @@ public:
 	}
 
 private:
-	/// New letters for those from \p first on.
-	struct Move
-	{
-		std::size_t first = 0;
-		Handles letters;
-		double condition = 0.0; ///< of the relation with them
-	};
-
 	void considerOnHandle(std::size_t i)
 	{
 		const Isometry &a = m_handles[i], &b = m_handles[i + 1];
@@ -411,10 +398,10 @@ private:
 		condition += added;
 		// Short products of long isometries may be nothing but rounding.
 		const auto lost = static_cast<double>((after.inverse() * corner).distanceFromIdentity());
-		if (condition < m_best.condition && lost <= kUnitRoundoff * added) {
-			m_best.first = first;
-			m_best.letters.assign(letters.begin(), letters.end());
-			m_best.condition = condition;
+		if (condition < m_best && lost <= kUnitRoundoff * added) {
+			m_first = first;
+			m_letters.assign(letters.begin(), letters.end());
+			m_best = condition;
 		}
 	}
 
@@ -438,7 +425,9 @@ private:
 	double m_condition = 0.0;
 	std::vector<double> m_share;    // of each handle in it
 	std::vector<Isometry> m_corner; // products of the letters before each handle, and of all
-	Move m_best;
+	Handles m_letters;              // of the best move, for those from m_first on
+	std::size_t m_first = 0;
+	double m_best = 0.0; // the condition after it
 	Handles m_conjugates;
 	Array<Isometry> m_generators;
 };

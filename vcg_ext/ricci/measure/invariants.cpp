@@ -112,7 +112,7 @@ InvariantReport conformalInvariants(
 		report.torusTauIm = tau.imag();
 	}
 	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount > 0)
+	if (type.isAnnulus() && flat && !target.hasFixed() && cut.edgeCount() > 0)
 		report.annulusModulus = annulusModulus(t, layout, cut, area);
 	if (target.corners)
 		report.rectangleAspect = rectangleAspect(t, layout, *target.corners);

@@ -17,18 +17,9 @@ namespace {
 /// Edges with more sides than this pair each only with the kNearest nearest to its continuation.
 constexpr std::size_t kAllPairs = 64, kNearest = 8;
 
-/// Two sides that could be glued.
-struct Candidate
-{
-	double fold; // radians
-	int layers;  // how many sheets of equal triangles they are apart
-	Corner a, b; // the sides
-
-	bool operator<(const Candidate& other) const
-	{
-		return std::tie(fold, layers, a, b) < std::tie(other.fold, other.layers, other.a, other.b);
-	}
-};
+/// Two sides that could be glued: the fold between them in radians, how many sheets of equal triangles they are apart,
+/// and themselves. The least are the best.
+using Candidate = std::tuple<double, int, Corner, Corner>;
 
 /// Of length 1; as it is where it has no length.
 Point3 normalized(const Point3& p)
@@ -118,13 +109,13 @@ public:
 	void glue()
 	{
 		std::sort(m_candidates.begin(), m_candidates.end());
-		for (const Candidate& c : m_candidates) {
-			Corner &a = m_gluing.glued[c.a], &b = m_gluing.glued[c.b];
-			if (a.isValid() || b.isValid() ||
-				!m_orientation.merge(c.a.face(), c.b.face(), parityOf(c.a, c.b)))
+		for (const auto& [fold, layers, a, b] : m_candidates) {
+			Corner &ofA = m_gluing.glued[a], &ofB = m_gluing.glued[b];
+			if (ofA.isValid() || ofB.isValid() ||
+				!m_orientation.merge(a.face(), b.face(), parityOf(a, b)))
 				continue;
-			a = c.b;
-			b = c.a;
+			ofA = b;
+			ofB = a;
 		}
 	}
 
@@ -140,7 +131,7 @@ private:
 			return;
 		if ((parityOf(a, b) ^ m_reversed[f] ^ m_reversed[g]) != 0)
 			return; // of a sheet that went on there a part would have to be turned
-		m_candidates.push_back({foldBetween(p, q), std::abs(m_layer[f] - m_layer[g]), a, b});
+		m_candidates.emplace_back(foldBetween(p, q), std::abs(m_layer[f] - m_layer[g]), a, b);
 	}
 
 	const Array<Triangle>& m_triangles;
@@ -341,7 +332,7 @@ FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray
 		bool isOneSided = false;
 		std::size_t turned = 0;
 		queue.assign(1, seed);
-		part.component[seed] = part.componentCount;
+		part.component[seed] = part.componentCount();
 		for (std::size_t head = 0; head < queue.size(); ++head) {
 			const int f = queue[head];
 			for (const Corner s : cornersOf(f)) {
@@ -352,7 +343,7 @@ FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray
 				const bool agrees = triangles[s] != triangles[t];
 				const auto wanted = static_cast<char>(part.reversed[f] ^ (agrees ? 0 : 1));
 				if (part.component[g] < 0) {
-					part.component[g] = part.componentCount;
+					part.component[g] = part.componentCount();
 					part.reversed[g] = wanted;
 					turned += wanted != 0;
 					queue.push_back(g);
@@ -368,7 +359,6 @@ FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray
 			for (const int f : queue)
 				part.reversed[f] ^= 1;
 		part.isOneSided.push_back(isOneSided);
-		++part.componentCount;
 	}
 	return part;
 }
@@ -413,7 +403,7 @@ void cutOneSided(
 		return set;
 	};
 	const auto componentOf = [&](Corner s) { return partition.component[s.face()]; };
-	Array<EdgeSet> incoherent(partition.componentCount);
+	Array<EdgeSet> incoherent(partition.componentCount());
 	for (const Corner s : glued.indices())
 		if (const Corner t = glued[s];
 			t > s && partition.isOneSided[componentOf(s)] && triangles[s] == triangles[t])

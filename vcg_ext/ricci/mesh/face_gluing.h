@@ -52,7 +52,8 @@ struct FacePartition
 	Array<char> reversed;   ///< [face] 1 for the minority in each component that is to be turned
 	Array<char> isOneSided; ///< [component] no orientation fits all its faces
 	Array<Corner> contradicted; ///< glued sides, the lower of each two, where it does not fit
-	int componentCount = 0;
+
+	int componentCount() const { return isOneSided.size(); }
 };
 
 FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray<Corner>& glued);
@@ -92,13 +93,6 @@ std::array<std::vector<Corner>, 2> sidesToJoin(
 	const std::vector<int>& part,
 	bool all);
 
-/// Vertices that are one vertex of the surface.
-struct SplitVertices
-{
-	std::vector<int> vertex; ///< [vertex] the lowest of those that are one with it
-	std::vector<std::array<Corner, 2>> joined; ///< sides that are one edge
-};
-
 /// Finds edges of a surface whose two faces have vertices of their own there.
 ///
 /// Two sides of faces that no other face shares by index are one edge if their ends are bit-equal. Where just two
@@ -109,12 +103,15 @@ struct SplitVertices
 /// So solids that touch stay apart, in a soup of faces too, and so do the two sides of a leaf.
 /// \param alone sides that no other face shares by index, see FaceGluing
 /// \param part see SurfaceMesh
+/// \param vertices receives the merges of the vertices that are one
+/// \return pairs of sides that are one edge
 /// \pre no triangle uses a vertex twice; positions are finite
-SplitVertices findSplitVertices(
+std::vector<std::array<Corner, 2>> findSplitVertices(
 	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const std::vector<Corner>& alone,
-	const std::vector<int>& part);
+	const std::vector<int>& part,
+	DisjointSets& vertices);
 
 } // namespace ricci
 

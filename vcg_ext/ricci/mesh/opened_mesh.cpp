@@ -202,7 +202,7 @@ public:
 		m_opened.mesh.triangles = std::move(m_corners.values());
 		m_opened.component = FaceArray<int>(std::move(m_partition.component.values()));
 		m_opened.reversed = FaceArray<char>(std::move(m_partition.reversed.values()));
-		m_opened.componentCount = m_partition.componentCount;
+		m_opened.componentCount = m_partition.componentCount();
 		m_opened.mesh.absent = m_input.absent;
 		for (const int f : m_opened.face) {
 			if (!m_input.diagonal.empty())
@@ -236,8 +236,8 @@ private:
 	/// Joins split vertices, and counts what others would join. \return whether it has joined any
 	bool joinVertices(JoinSplitVertices join, const FaceGluing& gluing)
 	{
-		const auto splitAt = [&](const std::vector<Corner>& sides) {
-			return findSplitVertices(m_input.positions, m_triangles, sides, m_input.part);
+		const auto splitAt = [&](const std::vector<Corner>& sides, DisjointSets& vertices) {
+			return findSplitVertices(m_input.positions, m_triangles, sides, m_input.part, vertices);
 		};
 		const bool all = join == JoinSplitVertices::Always;
 		const auto [wanted, others] = sidesToJoin(m_triangles, gluing.alone, m_input.part, all);
@@ -246,14 +246,16 @@ private:
 			for (const Corner side : gluing.glued.indices())
 				if (gluing.glued[side].isValid())
 					pieces.merge(side.face(), gluing.glued[side].face());
-			for (const auto& [a, b] : splitAt(others).joined)
+			DisjointSets ignored(m_vertexCount);
+			for (const auto& [a, b] : splitAt(others, ignored))
 				m_opened.piecesApart += pieces.merge(a.face(), b.face());
 		}
-		SplitVertices split = splitAt(wanted);
-		if (split.joined.empty())
+		DisjointSets vertices(m_vertexCount);
+		m_opened.joinedEdges = static_cast<int>(splitAt(wanted, vertices).size());
+		if (m_opened.joinedEdges == 0)
 			return false;
-		m_opened.joinedEdges = static_cast<int>(split.joined.size());
-		m_opened.joined = std::move(split.vertex);
+		for (int v = 0; v < m_vertexCount; ++v)
+			m_opened.joined.push_back(vertices.find(v));
 		takeFaces();
 		return true;
 	}
@@ -335,7 +337,7 @@ private:
 		CornerArray<double> length(m_glued.size(), 0.0); // [loop]
 		for (const Corner s : sides)
 			length[loops.find(s)] += lengthOf(s);
-		Array<Corner> longest(partition.componentCount);
+		Array<Corner> longest(partition.componentCount());
 		for (const Corner s : sides) {
 			Corner& known = longest[partition.component[s.face()]];
 			if (const Corner loop = loops.find(s); !known.isValid() || length[loop] > length[known])
@@ -471,9 +473,9 @@ private:
 	Array<char> flatComponents() const
 	{
 		if (!m_input.lengths.empty())
-			return Array<char>(m_partition.componentCount, 0);
+			return Array<char>(m_partition.componentCount(), 0);
 		// Twice the largest area of a triangle, and the longest side of all.
-		Array<double> area(m_partition.componentCount, 0.0), longest = area;
+		Array<double> area(m_partition.componentCount(), 0.0), longest = area;
 		for (const int f : m_triangles.indices()) {
 			const Triangle& t = m_triangles[f];
 			const Point3 &p = at(t[0]), &q = at(t[1]), &r = at(t[2]);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ricci {
 
@@ -53,16 +54,12 @@ private:
 
 Sides::Sides(const std::vector<Triangle>& triangles)
 {
-	struct Side
-	{
-		int end; ///< number of its lower end in the first sort, of its higher one in the second
-		Corner corner;
-	};
+	using Side = std::pair<int, Corner>; // with one of its ends
 	m_across.resize(3 * triangles.size());
 	m_sides.reserve(m_across.size());
 	m_first.reserve(m_across.size() / 2 + 1);
 	const VertexNumbers number(triangles);
-	// By the lower end, of each by the higher one, of each by corner.
+	// By the lower end, of each by the higher one, of each by corner. The end is the one by which they are not sorted.
 	const Adjacency<int, Side> byHigh(number.count(), [&](const auto& add) {
 		int corner = 0;
 		for (const Triangle& t : triangles) {
@@ -74,17 +71,17 @@ Sides::Sides(const std::vector<Triangle>& triangles)
 	});
 	const Adjacency<int, Side> byLow(number.count(), [&](const auto& add) {
 		for (int high = 0; high < number.count(); ++high)
-			for (const Side& side : byHigh[high])
-				add(side.end, Side{high, side.corner});
+			for (const auto& [low, side] : byHigh[high])
+				add(low, Side{high, side});
 	});
 	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
 	for (int low = 0; low < number.count(); ++low) {
 		const ItemRange<const Side> sides = byLow[low];
 		for (const Side *first = sides.begin(), *last = first; first != sides.end(); first = last) {
 			m_first.push_back(m_sides.size());
-			for (; last != sides.end() && last->end == first->end; ++last)
-				m_sides.push_back(last->corner);
-			const Corner side = first->corner, other = last[-1].corner;
+			for (; last != sides.end() && last->first == first->first; ++last)
+				m_sides.push_back(last->second);
+			const Corner side = first->second, other = last[-1].second;
 			if (last - first == 2 && start(side) != start(other)) {
 				m_across[side] = other;
 				m_across[other] = side;

@@ -89,32 +89,32 @@ std::array<std::vector<Corner>, 2> sidesToJoin(
 	return divided;
 }
 
-SplitVertices findSplitVertices(
+std::vector<std::array<Corner, 2>> findSplitVertices(
 	const std::vector<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const std::vector<Corner>& alone,
-	const std::vector<int>& part)
+	const std::vector<int>& part,
+	DisjointSets& vertices)
 {
 	CornerArray<char> isAlone(3 * triangles.size(), 0);
-	std::vector<int> faces, vertices; // of these sides
+	std::vector<int> faces, ends; // of these sides
 	for (const Corner side : alone) {
 		isAlone[side] = 1;
 		faces.push_back(side.face());
-		vertices.push_back(triangles[side]);
-		vertices.push_back(triangles[side.next()]);
+		ends.push_back(triangles[side]);
+		ends.push_back(triangles[side.next()]);
 	}
-	for (std::vector<int>* numbers : {&faces, &vertices}) {
+	for (std::vector<int>* numbers : {&faces, &ends}) {
 		std::sort(numbers->begin(), numbers->end());
 		numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
 	}
-	const Array<int> place = placesOf(positions, part, vertices);
+	const Array<int> place = placesOf(positions, part, ends);
 	std::vector<Triangle> byPlace; // of the faces
 	for (const int f : faces) {
 		const Triangle& t = triangles[f];
 		byPlace.push_back({place[t[0]], place[t[1]], place[t[2]]});
 	}
-	SplitVertices split;
-	DisjointSets sets(place.size());
+	std::vector<std::array<Corner, 2>> joined;
 	std::vector<Corner> sides;
 	std::vector<int> layer;
 	Sides(byPlace).forEdges([&](const auto& edge) {
@@ -139,14 +139,12 @@ SplitVertices findSplitVertices(
 			if (!isPair || lieOnEachOther)
 				continue;
 			const bool sameWay = runsUp(p.side) == runsUp(q.side);
-			sets.merge(triangles[p.side], triangles[sameWay ? q.side : q.side.next()]);
-			sets.merge(triangles[p.side.next()], triangles[sameWay ? q.side.next() : q.side]);
-			split.joined.push_back({p.side, q.side});
+			vertices.merge(triangles[p.side], triangles[sameWay ? q.side : q.side.next()]);
+			vertices.merge(triangles[p.side.next()], triangles[sameWay ? q.side.next() : q.side]);
+			joined.push_back({p.side, q.side});
 		}
 	});
-	for (const int v : place.indices())
-		split.vertex.push_back(sets.find(v));
-	return split;
+	return joined;
 }
 
 } // namespace ricci

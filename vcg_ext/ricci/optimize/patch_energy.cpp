@@ -71,24 +71,23 @@ private:
 	}
 };
 
-/// f_z and f_zbar of a linear map, and their derivatives by the places of the corners, those of f_zbar
-/// conjugate to those of f_z.
-struct Derivatives
+/// How f_z of the linear map of a triangle changes with the places of its corners; f_zbar with the conjugates.
+std::array<Complex, 3> weightsOf(const TriangleShape& shape)
 {
-	std::array<Complex, 3> byCorner;
-	Complex z, w;
+	const double b = shape.base, x = shape.apex.real(), y = shape.apex.imag();
+	const Complex first(0.5 / b, 0.5 * x / (b * y)), second(0.0, -0.5 / y);
+	return {-first - second, first, second};
+}
 
-	Derivatives(const TriangleShape& shape, const Triangle2& p)
-	{
-		const double b = shape.base, x = shape.apex.real(), y = shape.apex.imag();
-		const Complex first(0.5 / b, 0.5 * x / (b * y)), second(0.0, -0.5 / y);
-		byCorner = {-first - second, first, second};
-		const Complex d1 = asComplex(p[1]) - asComplex(p[0]);
-		const Complex d2 = asComplex(p[2]) - asComplex(p[0]);
-		z = first * d1 + second * d2;
-		w = std::conj(first) * d1 + std::conj(second) * d2;
-	}
-};
+/// f_z and f_zbar of the map that takes its corners to \p p.
+std::array<Complex, 2> derivativesOf(const std::array<Complex, 3>& weights, const Triangle2& p)
+{
+	const Complex first = asComplex(p[1]) - asComplex(p[0]);
+	const Complex second = asComplex(p[2]) - asComplex(p[0]);
+	return {
+		weights[1] * first + weights[2] * second,
+		std::conj(weights[1]) * first + std::conj(weights[2]) * second};
+}
 
 /// The matrix (xx, xy; xy, yy) made positive semidefinite: xx, xy, yy.
 std::array<double, 3> semidefinite(double xx, double xy, double yy)
@@ -120,11 +119,11 @@ PatchEnergy::PatchEnergy(
 		sum += s.base * s.apex.imag();
 	const double minWeight = kMinWeight / static_cast<double>(shapes.size());
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
-		const Derivatives derivatives(shapes[i], flat.at(patch.triangles[i]));
-		const std::array<Complex, 3>& a = derivatives.byCorner;
+		const std::array<Complex, 3> a = weightsOf(shapes[i]);
 		Element element;
-		element.z0 = derivatives.z;
-		element.w0 = derivatives.w;
+		const auto [z, w] = derivativesOf(a, flat.at(patch.triangles[i]));
+		element.z0 = z;
+		element.w0 = w;
 		element.weight = std::max(shapes[i].base * shapes[i].apex.imag() / sum, minWeight);
 		for (std::size_t k = 0; k < 3; ++k) {
 			const int local = patch.corners[static_cast<int>(i)][k];
@@ -299,8 +298,8 @@ void PatchEnergy::layOutMatrix()
 
 double strain(const TriangleShape& shape, const Triangle2& plane)
 {
-	const Derivatives d(shape, plane);
-	const double a = std::norm(d.z), b = std::norm(d.w);
+	const auto [z, w] = derivativesOf(weightsOf(shape), plane);
+	const double a = std::norm(z), b = std::norm(w);
 	if (!(a > b))
 		return kInfinity;
 	return Density::untangling(a, b, 0.0).value / (2.0 + 2.0 * kAreaWeight);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace ricci {
 
@@ -151,22 +152,19 @@ void findArcs(const FlatMesh& flat, const Validity& validity, std::vector<Loop>&
 /// violators.
 std::vector<double> nearestIncreasing(const std::vector<double>& values)
 {
-	struct Pool
-	{
-		double sum;
-		std::size_t count;
-		double mean() const { return sum / static_cast<double>(count); }
+	std::vector<std::pair<double, std::size_t>> pools; // sum and count
+	const auto mean = [](const auto& pool) {
+		return pool.first / static_cast<double>(pool.second);
 	};
-	std::vector<Pool> pools;
 	for (const double value : values) {
-		Pool pool{value, 1};
-		for (; !pools.empty() && pools.back().mean() > pool.mean(); pools.pop_back())
-			pool = {pool.sum + pools.back().sum, pool.count + pools.back().count};
+		std::pair<double, std::size_t> pool{value, 1};
+		for (; !pools.empty() && mean(pools.back()) > mean(pool); pools.pop_back())
+			pool = {pool.first + pools.back().first, pool.second + pools.back().second};
 		pools.push_back(pool);
 	}
 	std::vector<double> nearest;
-	for (const Pool& pool : pools)
-		nearest.insert(nearest.end(), pool.count, pool.mean());
+	for (const auto& pool : pools)
+		nearest.insert(nearest.end(), pool.second, mean(pool));
 	return nearest;
 }
 

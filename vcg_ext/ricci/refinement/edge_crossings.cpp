@@ -28,13 +28,6 @@ bool isPositive(double x)
 	return x > 0.0 && std::isfinite(x);
 }
 
-/// Values of a linear function on R^{2,1} at the ends of a start halfedge.
-template<class Real>
-struct Values
-{
-	Real from, to;
-};
-
 /// Three linear functions carried along an end edge ab from one start triangle to the next, each as values
 /// at the triangle's corners. In the first triangle, at a and at the ends of the side opposite to it, they
 /// are 0, 1, 0; 0, 0, 1; and 1, 0, 0.
@@ -42,6 +35,9 @@ template<class Real>
 class CarriedFunctions
 {
 public:
+	/// Of one function, at the origin of a start halfedge and at its target.
+	using Values = std::array<Real, 2>;
+
 	CarriedFunctions(
 		const Triangulation& start,
 		const EdgeArray<double>& delta,
@@ -62,47 +58,26 @@ public:
 				!isLast && curve.crossings[i + 1].halfedge == m_start.next(x.twin());
 			const auto valueBeyond = across(x);
 			for (std::size_t k = 0; k < 3; ++k) {
-				const Values<Real> v = values[k].back();
-				const Real next = valueBeyond(v.from, v.to, apex[k]);
+				const auto [from, to] = values[k].back();
+				const Real next = valueBeyond(from, to, apex[k]);
 				if (isLast)
 					atB[k] = next;
 				else if (fromStays) {
-					values[k].push_back({v.from, next});
-					apex[k] = v.to;
+					values[k].push_back({from, next});
+					apex[k] = to;
 				}
 				else {
-					values[k].push_back({next, v.to});
-					apex[k] = v.from;
+					values[k].push_back({next, to});
+					apex[k] = from;
 				}
 			}
 		}
 	}
 
-	std::array<std::vector<Values<Real>>, 3> values; ///< [function][crossing] of the start halfedge
-	std::array<Real, 3> atB{};                       ///< [function]
+	std::array<std::vector<Values>, 3> values; ///< [function][crossing] of the start halfedge
+	std::array<Real, 3> atB{};                 ///< [function]
 
 private:
-	/// A start triangle ijk.
-	struct StartTriangle
-	{
-		Real ij, jk, ki; ///< inversive distances
-		Real rootD;      ///< root of minus the Gram determinant of x_i, x_j, x_k
-	};
-
-	/// The one on the left of h = ij.
-	StartTriangle triangle(Halfedge h) const
-	{
-		using std::sqrt;
-		const auto distance = [&](Halfedge side) { return Real(1.0) + Real(m_delta[side.edge()]); };
-		StartTriangle x;
-		x.ij = distance(h);
-		x.jk = distance(m_start.next(h));
-		x.ki = distance(m_start.previous(h));
-		x.rootD = sqrt(
-			x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + Real(2.0) * x.ij * x.jk * x.ki - Real(1.0));
-		return x;
-	}
-
 	/// How to find the value at l of a linear function on R^{2,1} by those at the corners of a start
 	/// triangle ijk; l is the apex on the other side of ij = \p h.
 	///
@@ -113,15 +88,26 @@ private:
 	///          l
 	///
 	/// M_i = (P_i + I_ij P_j) / c2, P_i = rootD_l I_ik + rootD_k I_il, and likewise with i and j
-	/// exchanged: the products of both sides with x_i and x_j, where <x_i, x_k> = -I_ik.
+	/// exchanged: the products of both sides with x_i and x_j, where <x_i, x_k> = -I_ik. rootD is the root of minus
+	/// the Gram determinant of the three vectors of a triangle.
 	/// \return value(fi, fj, fk)
 	auto across(Halfedge h) const
 	{
-		const StartTriangle a = triangle(h), b = triangle(h.twin()); // b with i and j exchanged
+		const auto inversive = [&](Halfedge side) {
+			return Real(1.0) + Real(m_delta[side.edge()]);
+		};
+		const auto rootD = [](const Real& x, const Real& y, const Real& z) {
+			using std::sqrt;
+			return sqrt(x * x + y * y + z * z + Real(2.0) * x * y * z - Real(1.0));
+		};
+		const Real ij = inversive(h);
+		const Real jk = inversive(m_start.next(h)), ki = inversive(m_start.previous(h));
+		const Real il = inversive(m_start.next(h.twin())),
+				   lj = inversive(m_start.previous(h.twin()));
+		const Real rootK = rootD(ij, jk, ki), rootL = rootD(ij, il, lj);
 		const Real delta(m_delta[h.edge()]), c2 = delta * (delta + Real(2.0));
-		const Real pi = b.rootD * a.ki + a.rootD * b.jk, pj = b.rootD * a.jk + a.rootD * b.ki;
-		const Real mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
-		const Real rootK = a.rootD, rootL = b.rootD;
+		const Real pi = rootL * ki + rootK * il, pj = rootL * jk + rootK * lj;
+		const Real mi = (pi + ij * pj) / c2, mj = (pj + ij * pi) / c2;
 		return [=](Real fi, Real fj, Real fk) { return (mi * fi + mj * fj - rootL * fk) / rootK; };
 	}
 
@@ -221,6 +207,7 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 	using std::abs;
 	const Curve& curve = endCurves[e];
 	const std::size_t n = curve.crossings.size();
+	using Values = typename CarriedFunctions<Real>::Values;
 	const CarriedFunctions<Real> functions(m_start, m_flow.start.delta, curve);
 	const auto& first = functions.values[0];
 	const auto& second = functions.values[1];
@@ -232,22 +219,20 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 		// atB[1] first - atB[0] second vanishes at a and at b.
 		const auto vanishing = [&](Real f, Real g) { return atB[1] * f - atB[0] * g; };
 		const auto size = [&](Real f, Real g) { return abs(atB[1] * f) + abs(atB[0] * g); };
-		const Real from = vanishing(first[i].from, second[i].from);
-		const Real to = vanishing(first[i].to, second[i].to);
-		const Real terms = size(first[i].from, second[i].from) + size(first[i].to, second[i].to);
+		const Real from = vanishing(first[i][0], second[i][0]);
+		const Real to = vanishing(first[i][1], second[i][1]);
+		const Real terms = size(first[i][0], second[i][0]) + size(first[i][1], second[i][1]);
 		// Less has lost the digits that places need.
 		isExact = isExact && abs(from) + abs(to) >= Real(kSmall) * terms;
 		// The crossing is |to| x_from + |from| x_to, both weights positive.
-		Values<Real> weight{abs(to), abs(from)};
-		if (!isPositive(double(weight.from)) || !isPositive(double(weight.to)) ||
+		Values weight{abs(to), abs(from)};
+		if (!isPositive(double(weight[0])) || !isPositive(double(weight[1])) ||
 			double(from) * double(to) > 0.0)
 			weight = {Real(1.0), Real(1.0)};
-		const Real scale = Real(1.0) / (weight.from + weight.to);
-		weight = {weight.from * scale, weight.to * scale};
-		const EdgeWeights onStart{double(weight.from), double(weight.to)};
-		const auto valueOf = [&](const Values<Real>& v) {
-			return weight.from * v.from + weight.to * v.to;
-		};
+		const Real scale = Real(1.0) / (weight[0] + weight[1]);
+		weight = {weight[0] * scale, weight[1] * scale};
+		const EdgeWeights onStart{double(weight[0]), double(weight[1])};
+		const auto valueOf = [&](const Values& v) { return weight[0] * v[0] + weight[1] * v[1]; };
 		// It also is onEnd.from x_a + onEnd.to x_b: first + second is 0 at a, and the third
 		// function is 1 there.
 		const Real toEnd = (valueOf(first[i]) + valueOf(second[i])) / (atB[0] + atB[1]);
