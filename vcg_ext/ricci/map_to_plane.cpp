@@ -30,11 +30,11 @@ constexpr double kPoorCost = 6.0;
 /// another map does. Of 82 components the best angle costs less than the first by 1.6 at most, and by 1.1 mostly.
 constexpr double kNear = 1.5;
 
-/// Where a map of cones breaks its promise, others are tried: first those for what energy has turned out to cost, at most
-/// so many times what is expected, and then, if their map breaks the promise as well, those that bring the expected
-/// spread of areas below the first of the spreads. Where the map is poor all the same, the others are tried, too: the
-/// linear model promises too much where scales differ much. Of 600 thin bars with quarter turns, three cost up to four
-/// times as much with the first spread alone.
+/// Where a map of cones breaks its promise, others are tried: if that is by its energy, those for what energy has turned
+/// out to cost, at most so many times what is expected, else those that bring the expected spread of areas below the first
+/// of the spreads. Where the map is poor all the same, all spreads are tried: the linear model promises too much where
+/// scales differ much. Of 600 thin bars with quarter turns, three cost up to four times as much with the first spread
+/// alone. After cones for the energy a spread gains on one of 17 components.
 constexpr double kMaxEnergyFactor = 8.0;
 constexpr double kSpreadsInstead[] = {0.25, 0.125, 0.0625, 0.03125};
 
@@ -124,9 +124,15 @@ Parametrization withOtherCones(
 	Parametrization map)
 {
 	double own = costOf(map).total();
-	double promised = expected.total(); // by what the last map was chosen for
 	const auto cost = [&] { return std::min(own, alternative); };
-	const auto isBroken = [&] { return cost() > promised + kBrokenPromise; };
+	const double isometry = expectedEnergy(0.0);
+	const double factor = std::clamp(
+		(costOf(map).energy - isometry) / std::max(kTiny, expected.energy - isometry),
+		1.0,
+		kMaxEnergyFactor);
+	const double mostPromised = expected.total() + kBrokenPromise;
+	const bool isBroken = cost() > mostPromised;
+	const bool isBrokenByEnergy = isBroken && expected.total(factor) > mostPromised;
 	const auto tryOther = [&](const auto& ask, const auto& isWorth) { // null: it is
 		auto next = otherMap(component, input, options, "the map before it stays", ask, isWorth);
 		if (!next)
@@ -138,23 +144,17 @@ Parametrization withOtherCones(
 		}
 		map.report.iterations = steps;
 	};
-	const double isometry = expectedEnergy(0.0);
-	const double factor = std::clamp(
-		(costOf(map).energy - isometry) / std::max(kTiny, expected.energy - isometry),
-		1.0,
-		kMaxEnergyFactor);
-	if (isBroken() && expected.total(factor) > promised + kBrokenPromise)
+	if (isBrokenByEnergy)
 		tryOther(
 			[&](TargetRequest& request) {
 				request.energyFactor = factor;
 				request.alternative = cost();
 			},
 			[&](const Target& target) {
-				promised = target.expected ? target.expected->total(factor) : kInfinity;
-				return promised < cost();
+				return target.expected && target.expected->total(factor) < cost();
 			});
 	for (const double spread : kSpreadsInstead)
-		if (cost() > kPoorCost || (isBroken() && spread == kSpreadsInstead[0]))
+		if (cost() > kPoorCost || (isBroken && !isBrokenByEnergy && spread == kSpreadsInstead[0]))
 			tryOther(
 				[&](TargetRequest& request) {
 					request.goal = {ConeGoal::Spread, 0, spread};
