@@ -282,6 +282,16 @@ TEST(Unfolded, ACylinderIsItsWallWithTwoLids)
 	EXPECT_NEAR(map.report.seamLength, 2.0 * (kSides - 1) * side + 3.0, 1e-9);
 }
 
+/// A roof of ten sides, between which the surface bends by less than at a first try, lies flat as well.
+TEST(Unfolded, AlongBluntCreasesWhereThatCostsLess)
+{
+	const SurfaceMesh mesh =
+		revolved({{0.0, 0.0}, {0.5, 0.0}, {1.0, 0.0}, {1.0, 0.2}, {0.5, 0.675}, {0.0, 1.15}}, 10);
+	const FlatResult map = run(mesh, Options());
+	EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
+	expectIsometric(mesh, map.uv, map.report);
+}
+
 /// Length of the outline along the axes over that of all of it.
 double uprightShare(const FlatMesh& map)
 {
