@@ -109,6 +109,7 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 		}
 	const double root = leastSquare(boxes), gap = 1e-6 * root;
 	std::vector<double> heights;
+	heights.reserve(boxes.size());
 	for (const Box2& box : boxes)
 		heights.push_back(box.height());
 	const std::vector<std::size_t> order = largestFirst(std::move(heights), root);
@@ -248,6 +249,7 @@ PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const Pack
 {
 	const std::vector<Box2>& boxes = charts.boxes;
 	std::vector<double> areas;
+	areas.reserve(boxes.size());
 	for (const Box2& box : boxes)
 		areas.push_back(box.area());
 	const std::vector<std::size_t> order = largestFirst(areas, square.side * square.side);
