@@ -45,7 +45,6 @@ CostOfPatch costWithCuts(const FlatMesh& map, const Validity& validity)
 
 Repair finishInPlane(
 	FlatMesh& flat,
-	const VertexArray<char>& cones,
 	bool freeBoundary,
 	const VertexArray<char>& onHole,
 	Finish finish,
@@ -78,7 +77,8 @@ Repair finishInPlane(
 		endedEarly = leastStretch(flat, allPoints(flat));
 	}
 	else
-		endedEarly = leastDistortion(flat, joinedPoints(flat, cones, freeBoundary), mayCut);
+		endedEarly = leastDistortion(
+			flat, joinedPoints(flat, [&](int) { return freeBoundary; }), mayCut);
 	if (endedEarly)
 		logLine("The finish stopped at its step limit: the map could still be slightly better.");
 	result.endedEarly += endedEarly;

@@ -143,7 +143,6 @@ repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, Work
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of
 /// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
 /// least stretch.
-/// \param cones 1 at cones inside
 /// \param freeBoundary whether the curvature of the boundary is free
 /// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
 /// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
@@ -151,7 +150,6 @@ repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, Work
 /// \pre finish is not Finish::None
 Repair finishInPlane(
 	FlatMesh& flat,
-	const VertexArray<char>& cones,
 	bool freeBoundary,
 	const VertexArray<char>& onHole,
 	Finish finish,
