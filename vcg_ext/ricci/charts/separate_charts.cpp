@@ -228,10 +228,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 		}
 		if (divided.empty())
 			before = seams(map.mesh);
-		Parts joined = joinParts(
-			chart,
-			divideChart(chart, overlaps),
-			overlaps.isComplete() ? &overlaps.tree() : nullptr);
+		Parts joined = joinParts(chart, divideChart(chart, overlaps));
 		const int first = map.mesh.place.size();
 		map.mesh.place.append(std::move(chart.place));
 		for (std::size_t i = 0; i < triangles.size(); ++i)
