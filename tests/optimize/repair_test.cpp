@@ -156,7 +156,6 @@ TEST(FinishInPlane, RepairsWhatIsCheaperThanACut)
 		FlatMesh kept = flat;
 		const double before = costWithCuts(flat);
 		const int flipped = notCounterClockwise(flat);
-		const VertexArray<char> none(flat.vertexCount(), 0);
 		finishInPlane(flat, false, {}, Finish::Repair, true);
 		mended += flipped - notCounterClockwise(flat);
 		left += notCounterClockwise(flat);

@@ -265,19 +265,15 @@ void keepPromise(const Target& target, PlaneMap& map)
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.
-void finish(
-	const FlowDomain& domain,
-	const Options& options,
-	const Target& target,
-	PlaneMap& map)
+void finish(const FlowDomain& domain, const Options& options, const Target& target, PlaneMap& map)
 {
 	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(domain, options, target);
 	const Array<Point2> before = map.mesh.place;
-	map.finished = finishInPlane(
-		map.mesh, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
+	map.finished =
+		finishInPlane(map.mesh, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.hasFreeSeams = finish == Finish::LeastStretch;
 	if (finish == Finish::LeastDistortion && coneGoal(options.cones).kind == ConeGoal::LeastCost)
 		keepPromise(target, map);
