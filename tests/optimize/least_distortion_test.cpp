@@ -22,7 +22,6 @@ struct CutMap
 {
 	SurfaceMesh mesh;
 	FlatMesh flat;
-	VertexArray<char> cones;
 	bool boundaryMoves = true;
 
 	/// The flow's map, cut along random ways.
@@ -34,18 +33,20 @@ struct CutMap
 		component.triangles = m.triangles;
 		flat =
 			flatMeshOf(component, flow.domain, flow.refinement(flow.cutAnywhere(random)).corners);
-		cones = flow.cones();
 	}
 
 	/// A disk whose vertices are at \p places.
 	CutMap(const SurfaceMesh& m, const std::vector<Point2>& places) :
-			mesh(m), flat(flatDisk(m, places)), cones(m.positions.size(), 0)
+			mesh(m), flat(flatDisk(m, places))
 	{
 	}
 
 	bool improve() { return leastDistortion(flat, groups(), false); }
 
-	PointGroups groups() const { return joinedPoints(flat, cones, boundaryMoves); }
+	PointGroups groups() const
+	{
+		return joinedPoints(flat, [&](int) { return boundaryMoves; });
+	}
 	int flipped() const { return notCounterClockwise(flat); }
 
 	double extent() const { return flat.box().extent(); }

@@ -156,12 +156,11 @@ TEST(FinishInPlane, RepairsWhatIsCheaperThanACut)
 		FlatMesh kept = flat;
 		const double before = costWithCuts(flat);
 		const int flipped = notCounterClockwise(flat);
-		const VertexArray<char> none(flat.vertexCount(), 0);
-		finishInPlane(flat, none, false, {}, Finish::Repair, true);
+		finishInPlane(flat, false, {}, Finish::Repair, true);
 		mended += flipped - notCounterClockwise(flat);
 		left += notCounterClockwise(flat);
 		EXPECT_LE(costWithCuts(flat), before * (1.0 + 1e-9));
-		finishInPlane(kept, none, false, {}, Finish::Repair, false);
+		finishInPlane(kept, false, {}, Finish::Repair, false);
 		EXPECT_LE(notCounterClockwise(kept), movesBorder ? notCounterClockwise(flat) : 0);
 	}
 	EXPECT_GT(mended, 40);

@@ -244,14 +244,14 @@ Finish finishOf(const FlowDomain& domain, const Options& options, const Target& 
 /// The promise of Target::expected once more: where straight triangles cost more than their metric, lowers the energy,
 /// at the cost of angles, with seams as they are. That lowers the objective of 22 of 79 meshes, most of them CAD, by 1 % in
 /// the mean, and raises that of two.
-void keepPromise(const Target& target, const VertexArray<char>& cones, PlaneMap& map)
+void keepPromise(const Target& target, PlaneMap& map)
 {
 	const double broken = costOf(map.mesh, 0.0).energy;
 	if (!target.expected || broken <= target.expected->energy + kBrokenPromise)
 		return;
 	const Array<Point2> before = map.mesh.place;
 	const bool endedEarly =
-		leastStretch(map.mesh, joinedPoints(map.mesh, cones, target.hasFixed()));
+		leastStretch(map.mesh, joinedPoints(map.mesh, [&](int) { return target.hasFixed(); }));
 	const double kept = costOf(map.mesh, 0.0).energy;
 	if (!(kept < broken)) { // because of triangles that stay flipped
 		map.mesh.place = before;
@@ -265,23 +265,18 @@ void keepPromise(const Target& target, const VertexArray<char>& cones, PlaneMap&
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.
-void finish(
-	const FlowDomain& domain,
-	const Options& options,
-	const Target& target,
-	const VertexArray<char>& cones,
-	PlaneMap& map)
+void finish(const FlowDomain& domain, const Options& options, const Target& target, PlaneMap& map)
 {
 	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(domain, options, target);
 	const Array<Point2> before = map.mesh.place;
-	map.finished = finishInPlane(
-		map.mesh, cones, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
+	map.finished =
+		finishInPlane(map.mesh, target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.hasFreeSeams = finish == Finish::LeastStretch;
 	if (finish == Finish::LeastDistortion && coneGoal(options.cones).kind == ConeGoal::LeastCost)
-		keepPromise(target, cones, map);
+		keepPromise(target, map);
 	if (map.mesh.place != before) // its border may have moved
 		moveUpright(minAreaRectangle(map.mesh.place.values()), 1.0, map.mesh.place);
 }
@@ -365,7 +360,7 @@ Parametrization flattenToPlane(const Component& component, FlowPlan plan, const 
 			requireMetric(flow, domain.solved().topology.boundary);
 		});
 	// Not beside the periods, which take as much memory.
-	finish(domain, options, flow.target, cut.cones, map);
+	finish(domain, options, flow.target, map);
 	const bool mayFlip = map.finished.movedCount() > 0 || isBent(flow, options.output);
 	Parametrization part = withoutMap(component, domain, flow, std::move(log), cut, map.scale);
 	static_cast<InvariantReport&>(part.report) = std::move(map.invariants);

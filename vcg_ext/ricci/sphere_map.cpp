@@ -148,38 +148,27 @@ SurfaceMesh punctured(const Component& c, Vertex pole)
 	return disk;
 }
 
-/// The value below which half of the weight lies.
-double weightedMedian(const std::vector<double>& values, const std::vector<double>& weights)
+double median(std::vector<double> values)
 {
-	std::vector<std::size_t> order(values.size());
-	std::iota(order.begin(), order.end(), std::size_t(0));
-	std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return values[a] != values[b] ? values[a] < values[b] : a < b;
-	});
-	const double half = 0.5 * std::accumulate(weights.begin(), weights.end(), 0.0);
-	double sum = 0.0;
-	for (std::size_t i : order)
-		if ((sum += weights[i]) >= half)
-			return values[i];
-	return values[order.back()];
+	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+	std::nth_element(values.begin(), middle, values.end());
+	return *middle;
 }
 
-/// Inverse stereographic projection with the middle of the area at the equator. The plane is seen
+/// Inverse stereographic projection with half of the vertices on either side of the equator. The plane is seen
 /// from inside the sphere, so it is reflected.
-VertexArray<Point3>
-toSphere(const VertexArray<Point2>& plane, const VertexArray<double>& weights, Vertex pole)
+VertexArray<Point3> toSphere(const VertexArray<Point2>& plane, Vertex pole)
 {
-	std::vector<double> x, y, r, w;
+	std::vector<double> x, y, r;
 	for (const Vertex v : plane.indices())
 		if (v != pole) {
 			x.push_back(plane[v][0]);
 			y.push_back(plane[v][1]);
-			w.push_back(weights[v]);
 		}
-	const double cx = weightedMedian(x, w), cy = weightedMedian(y, w);
+	const double cx = median(x), cy = median(y);
 	for (std::size_t i = 0; i < x.size(); ++i)
 		r.push_back(std::hypot(x[i] - cx, y[i] - cy));
-	double unit = weightedMedian(r, w);
+	double unit = median(r);
 	if (!(unit > 0.0))
 		unit = *std::max_element(r.begin(), r.end());
 	VertexArray<Point3> sphere(plane.size(), {0.0, 0.0, 1.0});
@@ -334,7 +323,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	for (std::size_t f = 0; f < areas.size(); ++f)
 		for (const int v : c.triangles[f])
 			weights[Vertex(v)] += areas[f] / 3.0;
-	VertexArray<Point3> sphere = toSphere(plane, weights, pole);
+	VertexArray<Point3> sphere = toSphere(plane, pole);
 	SphereMap map;
 	map.pole = opened.vertex[positionOf(c.vertex[pole])];
 	map.iterations = flat.report.iterations;

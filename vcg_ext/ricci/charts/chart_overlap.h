@@ -58,9 +58,6 @@ public:
 	/// that pairs are many times as many as triangles, only one is listed.
 	bool isComplete() const { return m_isComplete; }
 
-	/// Of the triangles' boxes.
-	const BoxTree& tree() const { return m_tree; }
-
 	/// [triangle] whether it is in a pair, listed or not.
 	Array<char> overlapping() const;
 

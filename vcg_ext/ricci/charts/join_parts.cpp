@@ -391,9 +391,9 @@ private:
 
 } // namespace
 
-Parts joinParts(FlatMesh& chart, const Parts& parts, const BoxTree* tree)
+Parts joinParts(FlatMesh& chart, const Parts& parts)
 {
-	MovableParts movable(chart, parts, tree);
+	MovableParts movable(chart, parts);
 	PartJoiner(chart, movable).run();
 	CrumbDivider(chart, movable).run();
 	take(movable, chart);

@@ -31,14 +31,8 @@ class MovableParts
 {
 public:
 	/// \param parts triangles
-	/// \param all of the boxes of all triangles, if no point lies in many of them: it saves trees for the parts.
-	/// It must outlive this.
-	MovableParts(
-		const FlatMesh& chart,
-		const std::vector<std::vector<int>>& parts,
-		const BoxTree* all = nullptr) :
-			m_chart(chart),
-			m_all(all), m_plane(chart.corners()), m_isProper(chart.size()),
+	MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts) :
+			m_chart(chart), m_plane(chart.corners()), m_isProper(chart.size()),
 			m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
 			m_next(chart.size(), -1)
 	{
@@ -48,7 +42,7 @@ public:
 		for (const std::vector<int>& triangles : parts) {
 			const int part = addPart();
 			m_groupsOf[part].push_back(m_groups.size());
-			Group group{m_all ? -1 : m_origins.size(), {}, {}, {}};
+			Group group{m_origins.size(), {}, {}, {}};
 			std::vector<Box2> boxes;
 			boxes.reserve(triangles.size());
 			for (const int f : triangles) {
@@ -60,8 +54,7 @@ public:
 				whole.add(boxes.back());
 			}
 			m_groups.push_back(group);
-			if (!m_all)
-				m_origins.push_back({triangles, BoxTree(boxes)});
+			m_origins.push_back({triangles, BoxTree(boxes)});
 		}
 		m_touching = kTiny * whole.extent();
 		commit();
@@ -261,7 +254,7 @@ private:
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
-		int origin;          ///< -1: its triangles are in m_all
+		int origin;
 		Motion motion, back; ///< since the beginning, and its inverse
 		Box2 box;            ///< round the triangles where they are now, at least
 	};
@@ -306,11 +299,9 @@ private:
 	{
 		return groups.tree.meetsAny(boxAround(p), [&](int k) {
 			const int group = groups.numbers[positionOf(k)];
-			const int number = m_groups[group].origin;
-			const ByBox* origin = number >= 0 ? &m_origins[number] : nullptr;
-			const BoxTree& tree = origin ? origin->tree : *m_all;
-			return tree.meetsAny(boxAround(m_groups[group].back(p)), [&](int i) {
-				const int g = origin ? origin->numbers[positionOf(i)] : i;
+			const ByBox& origin = m_origins[m_groups[group].origin];
+			return origin.tree.meetsAny(boxAround(m_groups[group].back(p)), [&](int i) {
+				const int g = origin.numbers[positionOf(i)];
 				return m_group[g] == group && m_isProper[g] && overlap(p, m_plane[g], m_touching) &&
 					   isFound(g);
 			});
@@ -323,7 +314,6 @@ private:
 	}
 
 	const FlatMesh& m_chart;
-	const BoxTree* m_all;     // of all triangles where they were in the beginning, or none
 	double m_touching = 0.0;  // what is nearer is at one place
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise

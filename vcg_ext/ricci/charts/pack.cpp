@@ -93,12 +93,10 @@ Packing packAlone(const FlatMesh& mesh, bool isUpright)
 }
 
 /// By outlines.
-/// \return without motions where boxes are better, or the outlines need more than that square and some more
+/// \return without motions where the outlines need more than that square and some more
 Packing packByOutlines(const FlatMesh& mesh, const ChartsToPack& charts, const PackSquare& square)
 {
 	const PackItems items = packItems(mesh, charts, square);
-	if (items.isMostlySmall)
-		return {};
 	const std::vector<Motion> motions = packOutlines(
 		items.outlines, items.turns, kWider * square.side - square.padding, square.padding);
 	if (motions.empty())

@@ -254,16 +254,13 @@ PackItems packItems(const FlatMesh& mesh, const ChartsToPack& charts, const Pack
 		areas.push_back(box.area());
 	const std::vector<std::size_t> order = largestFirst(areas, square.side * square.side);
 	std::vector<std::size_t> large, small;
-	double areaOfLarge = 0.0, areaOfSmall = 0.0;
 	const double least = kMinOutlineCells * square.side / coarseCells(square.charts);
 	for (const std::size_t i : order) {
 		const bool isLarge =
 			large.size() < kMaxOutlines && !charts.isThin[i] && boxes[i].extent() > least;
 		(isLarge ? large : small).push_back(i);
-		(isLarge ? areaOfLarge : areaOfSmall) += areas[i];
 	}
 	PackItems items;
-	items.isMostlySmall = large.empty() || areaOfLarge < areaOfSmall;
 	items.itemOf.resize(boxes.size());
 	items.shiftOf.resize(boxes.size(), {0.0, 0.0});
 	items.outlines.resize(large.size());

@@ -62,7 +62,6 @@ struct PackItems
 	std::vector<ChartTurns> turns;   ///< [item]
 	std::vector<std::size_t> itemOf; ///< [chart] what it is in
 	std::vector<Point2> shiftOf;     ///< [chart] before the item is moved
-	bool isMostlySmall = false; ///< boxes of small charts have more than half of the area of all
 
 	/// Of chart \p i, where its item is moved by \p motion.
 	Motion motionOf(std::size_t i, const Motion& motion) const

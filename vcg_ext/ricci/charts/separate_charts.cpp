@@ -228,10 +228,7 @@ void separateCharts(bool turns, bool reflects, Parametrization& map)
 		}
 		if (divided.empty())
 			before = seams(map.mesh);
-		Parts joined = joinParts(
-			chart,
-			divideChart(chart, overlaps),
-			overlaps.isComplete() ? &overlaps.tree() : nullptr);
+		Parts joined = joinParts(chart, divideChart(chart, overlaps));
 		const int first = map.mesh.place.size();
 		map.mesh.place.append(std::move(chart.place));
 		for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -336,12 +333,8 @@ std::optional<ChartCut> findCutForPacking(const Parametrization& map, double onS
 
 void cutChart(const ChartCut& cut, bool turns, Parametrization& map)
 {
-	std::vector<int> triangles;
-	for (const int f : map.mesh.chart.indices())
-		if (map.mesh.chart[f] == cut.chart)
-			triangles.push_back(f);
 	const std::vector<int> parts = divide(cut.chart, cut.pieces, map);
-	splitPoints(triangles, map.mesh);
+	splitPoints(map.mesh);
 	settle(parts, turns, map);
 	map.report.overlapCuts += cut.edges;
 	map.report.seamLength += cut.length;

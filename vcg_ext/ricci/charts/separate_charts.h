@@ -105,10 +105,9 @@ constexpr double kCrumb = 0.01;
 /// get no longer. Sides that come to lie on each other are joined.
 /// \param chart its points are moved and renumbered
 /// \param parts triangles of each, connected; none covers itself
-/// \param tree of the boxes of all triangles, if no point lies in many of them
 /// \return the parts that are left: their triangles in increasing order, the parts by their first
-std::vector<std::vector<int>> joinParts(
-	FlatMesh& chart, const std::vector<std::vector<int>>& parts, const BoxTree* tree = nullptr);
+std::vector<std::vector<int>>
+joinParts(FlatMesh& chart, const std::vector<std::vector<int>>& parts);
 
 } // namespace ricci
 

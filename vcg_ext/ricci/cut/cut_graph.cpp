@@ -165,67 +165,25 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 	return edges;
 }
 
-/// Shortest paths along edges.
-NodePaths pathsAlongEdges(const Triangulation& t, const EdgeArray<double>& lengths, Vertex root)
+Vertex farthest(const ContractedGraph& graph, const NodePaths& paths)
 {
-	return shortestPaths<Vertex, Halfedge>(
-		t.vertexCount(), {root}, [&](Vertex v, const auto& visit) {
-			for (const Halfedge h : t.around(v))
-				visit(t.target(h), lengths[h.edge()], h);
-		});
-}
-
-Vertex farthest(const NodePaths& paths)
-{
-	Vertex far(0);
-	for (const Vertex v : paths.distances().indices())
-		if (paths[v] > paths[far])
-			far = v;
+	Vertex far = graph.node(Vertex(0));
+	for (const Vertex v : graph.surface().vertices())
+		if (paths[graph.node(v)] > paths[far])
+			far = graph.node(v);
 	return far;
 }
 
 /// The middle of a way that is about as long as any.
-Vertex centreOf(const Triangulation& t, const EdgeArray<double>& lengths)
+Vertex centreOf(const ContractedGraph& graph)
 {
-	Vertex end = farthest(pathsAlongEdges(t, lengths, Vertex(0)));
-	const NodePaths paths = pathsAlongEdges(t, lengths, end);
-	end = farthest(paths);
+	Vertex end = farthest(graph, graph.pathsFrom({graph.node(Vertex(0))}));
+	const NodePaths paths = graph.pathsFrom({end});
+	end = farthest(graph, paths);
 	const double half = 0.5 * paths[end];
 	while (paths[end] > half)
-		end = t.origin(paths.parent(end));
+		end = graph.node(graph.surface().origin(paths.parent(end)));
 	return end;
-}
-
-/// A spanning tree of the triangles that takes them in, from one at the centre on, by their distances
-/// from it, as the edges that it crosses.
-EdgeArray<char> treeAround(const Triangulation& t, const VertexArray<double>& distance)
-{
-	FaceArray<double> key(t.faceCount(), 0.0);
-	Face first(0);
-	for (const Face f : t.faces()) {
-		for (const Vertex v : t.vertices(f))
-			key[f] += distance[v];
-		if (key[f] < key[first])
-			first = f;
-	}
-	EdgeArray<char> isCrossed(t.edgeCount(), 0);
-	FaceArray<char> isIn(t.faceCount(), 0);
-	DistanceQueue<Halfedge> next; // halfedges of triangles to be taken in, entered across them
-	const auto take = [&](Face f) {
-		isIn[f] = 1;
-		for (const Halfedge h : t.halfedges(f))
-			if (!t.isBoundary(h.edge()) && !isIn[t.face(h.twin())])
-				next.push(key[t.face(h.twin())], h.twin());
-	};
-	take(first);
-	while (!next.empty()) {
-		const Halfedge h = next.pop().second;
-		if (isIn[t.face(h)])
-			continue;
-		isCrossed[h.edge()] = 1;
-		take(t.face(h));
-	}
-	return isCrossed;
 }
 
 } // namespace
@@ -233,11 +191,14 @@ EdgeArray<char> treeAround(const Triangulation& t, const VertexArray<double>& di
 CutGraph
 cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones)
 {
-	const NodePaths paths = pathsAlongEdges(t, lengths, centreOf(t, lengths));
-	EdgeArray<char> isCut = treeAround(t, paths.distances());
-	for (const Edge e : t.edges())
-		isCut[e] = !t.isBoundary(e) && !isCut[e];
 	const ContractedGraph graph(t, lengths);
+	const NodePaths paths = graph.pathsFrom({centreOf(graph)});
+	EdgeArray<double> nearness(t.edgeCount());
+	for (const Edge e : t.edges())
+		nearness[e] = -std::max(paths[graph.from(e)], paths[graph.to(e)]);
+	EdgeArray<char> isCut(t.edgeCount(), 0);
+	for (const Edge e : edgesBesideCotree(t, isCut, nearness))
+		isCut[e] = 1;
 	prune(graph, graph.terminals(cones), isCut);
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }

@@ -57,9 +57,9 @@ std::optional<CutGraph> mirroredCut(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones);
 
-/// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
-/// the triangles from one in the middle, of which every other is reached inside the disk, and all edges
-/// that it does not cross, without dead ends. Longer than that of cutToDisk().
+/// The cut graph far from the middle of the surface, which leaves a disk of a small radius: the edges that a tree
+/// of the triangles does not cross, without dead ends. The tree crosses the edges nearest to the middle first. Longer
+/// than the cut graph of cutToDisk().
 /// \param lengths of the edges
 /// \param cones see CutGraph
 /// \pre \p t is connected

@@ -234,39 +234,6 @@ void splitPoints(FlatMesh& mesh)
 		mesh);
 }
 
-void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh)
-{
-	const auto inChart = [&](Corner side) {
-		const Corner other = mesh.joined(side);
-		return other.isValid() && mesh.chart[other.face()] == mesh.chart[side.face()] ? other
-																					  : Corner();
-	};
-	Array<char> isKept(mesh.place.size(), 0);
-	CornerArray<char> isDone(mesh.across.size(), 0);
-	std::vector<Corner> fan; // at one point, counter-clockwise
-	for (const int f : triangles)
-		for (const Corner start : cornersOf(f)) {
-			if (isDone[start])
-				continue;
-			Corner first = start;
-			for (Corner other; (other = inChart(first)).isValid() && other.next() != start;)
-				first = other.next();
-			fan.clear();
-			for (Corner c = first; c.isValid() && !isDone[c]; c = inChart(c.previous())) {
-				isDone[c] = 1;
-				fan.push_back(c);
-			}
-			int point = mesh.points[start];
-			if (std::exchange(isKept[point], 1) != 0) {
-				const Point2 place = mesh.place[point];
-				point = mesh.place.size();
-				mesh.place.push_back(place);
-			}
-			for (const Corner c : fan)
-				mesh.points[c] = point;
-		}
-}
-
 void scaleToSurface(FlatMesh& mesh)
 {
 	if (const double plane = mesh.planeArea(); plane > 0.0) {

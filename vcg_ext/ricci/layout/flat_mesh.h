@@ -132,9 +132,6 @@ void mirror(const CornerOrder& order, std::size_t chartCount, FlatMesh& mesh);
 /// points that no corner has.
 void splitPoints(FlatMesh& mesh);
 
-/// The same for some triangles, whose points belong to no others: at each point one part keeps the number.
-void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
-
 /// Scales a map by one factor to the area of the surface, if it has any in the plane.
 void scaleToSurface(FlatMesh& mesh);
 

@@ -44,12 +44,7 @@ CostOfPatch costWithCuts(const FlatMesh& map, const Validity& validity)
 } // namespace
 
 Repair finishInPlane(
-	FlatMesh& flat,
-	const VertexArray<char>& cones,
-	bool freeBoundary,
-	const VertexArray<char>& onHole,
-	Finish finish,
-	bool mayCut)
+	FlatMesh& flat, bool freeBoundary, const VertexArray<char>& onHole, Finish finish, bool mayCut)
 {
 	checkpoint();
 	const auto boundaryMoves = [&](int v) {
@@ -78,7 +73,7 @@ Repair finishInPlane(
 		endedEarly = leastStretch(flat, allPoints(flat));
 	}
 	else
-		endedEarly = leastDistortion(flat, joinedPoints(flat, cones, freeBoundary), mayCut);
+		endedEarly = leastDistortion(flat, joinedPoints(flat, boundaryMoves), mayCut);
 	if (endedEarly)
 		logLine("The finish stopped at its step limit: the map could still be slightly better.");
 	result.endedEarly += endedEarly;

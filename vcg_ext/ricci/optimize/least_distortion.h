@@ -69,7 +69,7 @@ private:
 /// The same result to the bit with any number of threads.
 /// \param flat one component. Triangles without area in the plane do not count.
 /// If nothing stays, its size may change.
-/// \param groups joinedPoints() of a map whose cones are known
+/// \param groups joinedPoints()
 /// \param countsFlipped whether flipped triangles stay flipped, and count as reflected ones; else they do not count
 /// It checks between steps whether the run has ended; then \p flat is what it was.
 /// \return whether the bound on its steps has ended it: the distortion may become smaller still

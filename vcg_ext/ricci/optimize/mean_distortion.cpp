@@ -149,13 +149,14 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 		number(flat.place.size(), -1)
 {
 	const int count = number.size();
-	Array<char> stays(count);
-	for (const int p : stays.indices())
-		stays[p] = groups.fixed[groups.group[p]];
-	if (std::find(stays.begin(), stays.end(), 1) == stays.end()) {
+	Array<char> fixed = groups.fixed, stays(count);
+	if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) {
 		const int first = farthestFrom(centreOf(flat.place), flat.place);
-		stays[first] = stays[farthestFrom(flat.place[first], flat.place)] = 1;
+		for (const int p : {first, farthestFrom(flat.place[first], flat.place)})
+			fixed[groups.group[p]] = 1;
 	}
+	for (const int p : stays.indices())
+		stays[p] = fixed[groups.group[p]];
 	Array<int> firstAt(flat.vertexCount(), -1); // [vertex] first point of a group that moves
 	for (int c = 0; c < 3 * flat.points.size(); ++c)
 		if (const int p = flat.points[Corner(c)]; !stays[p] && groups.first[groups.group[p]] == p)

@@ -94,41 +94,6 @@ std::vector<std::pair<int, Copy>> copiesOf(const FlatMesh& flat, PointGroups& po
 	return copies;
 }
 
-/// Joins the points on the right of a seam to those on its left by the turn that fits its sides best.
-/// \param copies on the left and on the right
-/// \param ends number of the first of them that lie at ends of the seam, which stay
-void joinSeam(
-	const FlatMesh& flat,
-	const std::vector<std::array<int, 2>>& copies,
-	std::size_t ends,
-	double maxGap,
-	PointGroups& groups)
-{
-	std::vector<std::array<Complex, 2>> pairs;
-	std::array<Complex, 2> mean{};
-	for (const auto& [left, right] : copies) {
-		pairs.push_back({asComplex(flat.place[left]), asComplex(flat.place[right])});
-		for (std::size_t k = 0; k < 2; ++k)
-			mean[k] += pairs.back()[k] / static_cast<double>(copies.size());
-	}
-	Complex product = 0.0;
-	for (auto& [a, b] : pairs) {
-		a -= mean[0], b -= mean[1];
-		product += b * std::conj(a);
-	}
-	const Complex turn = product / std::abs(product);
-	double gap = 0.0;
-	for (const auto& [a, b] : pairs)
-		gap = std::max(gap, std::abs(b - turn * a));
-	const bool fits = gap <= maxGap; // not if the turn is not a number
-	for (std::size_t i = ends; i < copies.size(); ++i) {
-		const auto [left, right] = copies[i];
-		groups.group[right] = left;
-		groups.turn[right] = turn;
-		groups.fixed[left] = groups.fixed[right] = !fits;
-	}
-}
-
 } // namespace
 
 PointGroups allPoints(const FlatMesh& flat)
@@ -189,52 +154,6 @@ PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 		result.fixed.push_back(fixed);
 	}
 	return result;
-}
-
-PointGroups joinedPoints(const FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
-{
-	PointGroups groups = withBoundary(flat, [=](int) { return boundaryMoves; });
-	const double maxGap = kCheckedGap * flat.box().extent();
-	const auto origin = [&](Corner side) { return Vertex(flat.vertices[side]); };
-	const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
-		forBorders(flat, [&](Corner side) { add(origin(side), side); });
-	});
-	VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
-	for (const Vertex v : cones.indices()) {
-		int seams = 0;
-		for (const Corner side : leaving[v])
-			seams += flat.across[side].isValid();
-		isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
-		if (cones[v] || (seams > 0 && !isOnSeam[v]))
-			for (const Corner side : leaving[v])
-				groups.fixed[flat.points[side]] = 1;
-	}
-	const auto goesOn = [&](Corner side) { return isOnSeam[origin(side.next())]; };
-	const auto onward = [&](Corner side) {
-		const ItemRange<const Corner> out = leaving[origin(side.next())];
-		return out[out[0] == flat.across[side]];
-	};
-	for (const Vertex v : cones.indices()) {
-		if (!isOnSeam[v] || seen[v])
-			continue;
-		const ItemRange<const Corner> out = leaving[v];
-		Corner first = out[flat.points[out[1]] < flat.points[out[0]]];
-		while (goesOn(first) && origin(first.next()) != v)
-			first = onward(first);
-		const bool closed = goesOn(first);
-		std::vector<Corner> seam{closed ? onward(first) : flat.across[first]};
-		while (goesOn(seam.back()) && !(closed && origin(seam.back().next()) == v)) {
-			seam.push_back(onward(seam.back()));
-			seen[origin(seam.back())] = 1;
-		}
-		const Corner last = seam.back();
-		std::vector<std::array<int, 2>> copies{
-			{flat.points[last.next()], flat.points[flat.across[last]]}};
-		for (const Corner side : seam)
-			copies.push_back({flat.points[side], flat.points[flat.across[side].next()]});
-		joinSeam(flat, copies, closed ? 1 : 2, maxGap, groups);
-	}
-	return groups;
 }
 
 } // namespace ricci

@@ -47,15 +47,6 @@ PointGroups insidePoints(const FlatMesh& flat);
 /// \p boundaryMoves there.
 PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves);
 
-/// The same for a map whose cones are known: a seam, from one of its ends to the other,
-/// has one motion, that which fits its two sides best, so that the holonomy stays what it is up to
-/// rounding.
-/// The first point of a group lies on the left of its seam. Fixed are, too: cones, vertices where seams
-/// end or several meet, and seams whose sides do not fit.
-/// \param cones 1 at cones inside
-/// \param boundaryMoves whether the boundary is free; else its points stay
-PointGroups joinedPoints(const FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
-
 } // namespace ricci
 
 #endif

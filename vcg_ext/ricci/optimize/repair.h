@@ -143,19 +143,13 @@ repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, Work
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of
 /// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
 /// least stretch.
-/// \param cones 1 at cones inside
 /// \param freeBoundary whether the curvature of the boundary is free
-/// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
+/// \param onHole 1 at vertices of holes, where the boundary may move in any case; may be empty
 /// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
 /// \return what the repair has done
 /// \pre finish is not Finish::None
 Repair finishInPlane(
-	FlatMesh& flat,
-	const VertexArray<char>& cones,
-	bool freeBoundary,
-	const VertexArray<char>& onHole,
-	Finish finish,
-	bool mayCut);
+	FlatMesh& flat, bool freeBoundary, const VertexArray<char>& onHole, Finish finish, bool mayCut);
 
 /// Puts the border of a disk, which the flow has made round as far as it went, on a circle.
 void makeRound(FlatMesh& flat);
