@@ -11,6 +11,7 @@
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -176,7 +177,9 @@ Outcome runPacked(const SurfaceMesh& mesh, Options options, double margin)
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	const OpenedMesh opened = openMesh(mesh);
-	if (opened.mesh.triangles == mesh.triangles)
+	const bool isTurned =
+		std::find(opened.reversed.begin(), opened.reversed.end(), 1) != opened.reversed.end();
+	if (opened.mesh.triangles == mesh.triangles && !isTurned)
 		out.seamMismatch = testing::MapCheck(mesh, flat).seamMismatch;
 	draw(flat.mesh, mesh.positions, out);
 	std::vector<char> reversed(mesh.triangles.size(), 0);
