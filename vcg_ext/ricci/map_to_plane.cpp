@@ -314,7 +314,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	logLines(lines);
 	double maxBetween = kMaxCurvatureBetween;
 	bool isTried = false; // at all angles
-	const auto unfoldWithin = [&](double cost) {
+	// As far as that may be worth it beside a map of this cost.
+	const auto unfoldBeside = [&](double cost) {
 		if (mayBeUnfolded && !unfolded && cost > kPoorCost && maxBetween < 1.0)
 			unfolded = unfold(component, options, maxBetween = 1.0);
 		const double isometry = expectedEnergy(0.0);
@@ -330,7 +331,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	if (plan.target.expected && keepsMesh) {
 		const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
 		const double cost = plan.target.expected->total();
-		unfoldWithin(cost);
+		unfoldBeside(cost);
 		if (cost > totalOf(unfolded)) {
 			const std::string choice =
 				unfoldedText(*unfolded) + "; cones are expected to cost more";
@@ -342,7 +343,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	Parametrization map = flattenToPlane(component, std::move(plan), options);
 	advance(1.0, "Looking for overlaps");
 	separateCharts(options, map);
-	unfoldWithin(costOf(map).total());
+	unfoldBeside(costOf(map).total());
 	if (expected && isForCost && map.report.targetUsed == TargetUsed::PlacedCones)
 		map =
 			withOtherCones(component, input, options, *expected, totalOf(unfolded), std::move(map));

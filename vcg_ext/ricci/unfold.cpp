@@ -113,7 +113,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 std::vector<std::vector<Component>>
 divisions(const Component& component, double maxBetween, bool isFirst)
 {
-	std::vector<std::vector<Component>> divisions;
+	std::vector<std::vector<Component>> ways;
 	std::set<int> edges; // numbers of creases
 	double first = 0.0;  // pieces
 	const Sides sides(component.triangles);
@@ -130,13 +130,13 @@ divisions(const Component& component, double maxBetween, bool isFirst)
 		if (all.empty() || (first > 0.0 && count > std::max(kManyPieces, kRough * first)))
 			continue;
 		if ((first == 0.0) == isFirst)
-			divisions.push_back(std::move(all));
+			ways.push_back(std::move(all));
 		if (first == 0.0)
 			first = count;
 		if (isFirst)
 			break;
 	}
-	return divisions;
+	return ways;
 }
 
 } // namespace

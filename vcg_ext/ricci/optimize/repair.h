@@ -141,8 +141,7 @@ Repair
 repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
 
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of
-/// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
-/// least stretch.
+/// bent ones may have flipped: repairs it, and makes it the map of least distortion, or of least stretch.
 /// \param freeBoundary whether the curvature of the boundary is free
 /// \param onHole 1 at vertices of holes, where the boundary may move in any case; may be empty
 /// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
