@@ -8,7 +8,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <limits>
 #include <optional>
 
 namespace ricci {
@@ -170,14 +169,21 @@ Eigen::VectorXd ConeModel::descent(const Eigen::VectorXd& rest)
 	return change(whole).tail(size());
 }
 
-/// The change of the minimum, as the solution of the fit, if the right side changes by \p rest and cones at their
-/// bound stay there.
-Eigen::VectorXd ConeModel::change(const Eigen::VectorXd& rest) const
+/// The cones that their bound holds.
+std::vector<int> ConeModel::heldCones() const
 {
 	std::vector<int> held;
 	for (int i = 0; i < size(); ++i)
 		if (m_now.fit.multipliers[i] > 0.0)
 			held.push_back(i);
+	return held;
+}
+
+/// The change of the minimum, as the solution of the fit, if the right side changes by \p rest and cones at their
+/// bound stay there.
+Eigen::VectorXd ConeModel::change(const Eigen::VectorXd& rest) const
+{
+	const std::vector<int> held = heldCones();
 	const auto inverse = symmetric(m_now.inverse);
 	Eigen::VectorXd whole = rest;
 	whole.tail(size()) -= multipliers(
@@ -188,14 +194,24 @@ Eigen::VectorXd ConeModel::change(const Eigen::VectorXd& rest) const
 	return result;
 }
 
-double ConeModel::need(int i)
+Eigen::VectorXd ConeModel::needs()
 {
 	if (m_now.inverse.rows() == 0)
 		invert();
-	const double pivot = m_now.inverse(i + border(), i + border());
-	const double k = curvature(i);
-	return pivot > 0.0 ? k * (k / pivot + 2.0 * m_now.fit.multipliers[i])
-					   : std::numeric_limits<double>::max();
+	const std::vector<int> held = heldCones();
+	const Eigen::MatrixXd inverse = m_now.inverse.bottomRightCorner(size(), size());
+	const Eigen::LLT<Eigen::MatrixXd> among(inverse(held, held));
+	Eigen::VectorXd pivots = inverse.diagonal();
+	if (!held.empty()) {
+		pivots -=
+			among.matrixL().solve(inverse(held, Eigen::all)).colwise().squaredNorm().transpose();
+		const auto count = static_cast<Eigen::Index>(held.size());
+		pivots(held) =
+			among.solve(Eigen::MatrixXd::Identity(count, count)).diagonal().cwiseInverse();
+	}
+	const Eigen::ArrayXd k = curvatures();
+	return (pivots.array() > 0.0)
+		.select(k * (k / pivots.array() + 2.0 * m_now.fit.multipliers.array()), kInfinity);
 }
 
 void ConeModel::setRounding(ConeRounding rounding)

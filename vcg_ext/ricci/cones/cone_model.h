@@ -143,10 +143,10 @@ public:
 	/// constant where the sum is fixed: that then stays.
 	Eigen::VectorXd descent(const Eigen::VectorXd& rest);
 
-	/// By how much the lowest energy rises at least without cone \p i: k_i^2 over entry i of the diagonal of
-	/// the inverse of G, bordered by the sum where it is fixed, and 2 k_i times the multiplier of its bound.
-	/// Exact where no other cone is at its bound, or comes to it.
-	double need(int i);
+	/// By how much the lowest energy rises without each cone, if the others at their bound stay there and no
+	/// other comes to it: k_i^2 over entry i of the diagonal of the inverse of G, bordered by the sum where it
+	/// is fixed, less what those at their bound span, and 2 k_i times the multiplier of its bound.
+	Eigen::VectorXd needs();
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
 	/// model unless it returns true.
@@ -207,6 +207,7 @@ private:
 	void findMinimum();
 	Eigen::VectorXd unboundedMinimum();
 	Eigen::VectorXd rightSide() const;
+	std::vector<int> heldCones() const;
 	Eigen::VectorXd change(const Eigen::VectorXd& rest) const;
 	void leave(int i);
 	void join(int i);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -183,49 +184,36 @@ sitesAround(const ConeSites& sites, Vertex site, double far, SearchFront<Vertex,
 	return around;
 }
 
-/// Takes out the cone without which energy and prices fall most. A fit without it tells by how much, of those alone of
-/// which ConeModel::need() does not exclude it.
+/// Takes out the cone without which energy and prices fall most by ConeModel::needs(), of those without which they do
+/// fall.
 /// \param tree of the cones
+/// \param needed cones that are not tried; those that were tried and have stayed are put there: as others go, they are
+/// needed more
 /// \return false if they fall without none
-bool dropDearest(ConeModel& model, SeamTree& tree)
+bool dropDearest(ConeModel& model, SeamTree& tree, std::set<Vertex>& needed)
 {
 	const double present = model.energy();
+	const Eigen::VectorXd needs = model.needs();
 	const auto price = [&](int i) {
 		return kConePrice + kSeamPrice * tree.ownLength(model.vertex(i));
 	};
 	std::vector<std::pair<double, int>> most; // of what they fall by, and without which cone
 	for (int i = 0; i < model.size(); ++i)
-		if (const double fall = price(i) - model.priceOf(model.need(i)); fall > 0.0)
+		if (const double fall = price(i) - model.priceOf(needs[i]);
+			fall > 0.0 && needed.count(model.vertex(i)) == 0)
 			most.emplace_back(-fall, i);
 	std::sort(most.begin(), most.end());
-	Vertex dearest;
-	double best = 0.0;
-	for (auto next = most.begin(); next != most.end() && -next->first > best; ++next) {
-		const double others = next + 1 == most.end() ? 0.0 : -next[1].first;
-		const int i = next->second;
-		const Vertex cone = model.vertex(i);
-		double fall = price(i);
-		const bool isOut = model.tryWithout(i, [&] {
-			fall -= model.priceOf(model.energy() - present);
-			return fall > best && fall >= others;
-		});
-		if (fall > best) {
-			best = fall;
-			dearest = cone;
-		}
+	return std::any_of(most.begin(), most.end(), [&](const std::pair<double, int>& next) {
+		const Vertex cone = model.vertex(next.second);
+		const double saved = price(next.second);
+		const bool isOut = model.tryWithout(
+			next.second, [&] { return model.priceOf(model.energy() - present) < saved; });
 		if (isOut)
-			break;
-	}
-	if (!dearest.isValid())
-		return false;
-	tree.remove(dearest);
-	if (model.isCone(dearest)) {
-		const auto& cones = model.vertices();
-		model.remove(
-			static_cast<int>(std::find(cones.begin(), cones.end(), dearest) - cones.begin()));
-		model.fit();
-	}
-	return true;
+			tree.remove(cone);
+		else
+			needed.insert(cone);
+		return isOut;
+	});
 }
 
 /// Moves cone \p i to a place around where energy and price of seams are lower.
@@ -316,9 +304,9 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 	const auto dropOne = [&] {
 		std::vector<int> cones(positionOf(model.size()));
 		std::iota(cones.begin(), cones.end(), 0);
-		std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) {
-			return model.need(a) < model.need(b);
-		});
+		const Eigen::VectorXd needs = model.needs();
+		std::stable_sort(
+			cones.begin(), cones.end(), [&](int a, int b) { return needs[a] < needs[b]; });
 		cones.resize(std::min(cones.size(), kMaxDropTrials));
 		return std::any_of(
 			cones.begin(), cones.end(), [&](int i) { return model.tryWithout(i, isEnough); });
@@ -330,7 +318,8 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 bool dropCostlyCones(ConeModel& model, SeamTree& tree)
 {
 	const int before = model.size();
-	while (model.size() > model.minSize() && dropDearest(model, tree)) {
+	std::set<Vertex> needed;
+	while (model.size() > model.minSize() && dropDearest(model, tree, needed)) {
 	}
 	return model.size() < before;
 }
