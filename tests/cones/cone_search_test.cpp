@@ -271,6 +271,51 @@ TEST(ConeSearch, TheConeWhosePriceExceedsMostWhatItSavesIsDroppedFirst)
 	EXPECT_GT(kept, 10);
 }
 
+/// Cones at random on needles, of which those near the tips come to their bound: where no other comes to it or leaves it
+/// without one, the energy rises by what the model says.
+TEST(ConeSearch, NeedsAreRisesOfTheEnergyWhileTheSameConesAreAtTheirBound)
+{
+	Random random(611);
+	int compared = 0, held = 0,
+		free = 0; // of those at their bound, and of others while some are there
+	for (int turn = 0; turn < 60; ++turn) {
+		const SurfaceMesh needle = stretched(sphere(24, 12), {1, 1, random.real(3.0, 12.0)});
+		Search search(turn % 2 == 0 ? needle : withoutStars(needle, {0}));
+		std::vector<Vertex> cones;
+		for (const Vertex v : search.linear.surface.positions.indices())
+			if (search.sites.isAllowed(v) && random.real(0.0, 1.0) < 0.05)
+				cones.push_back(v);
+		ConeModel& model = search.with(cones).model;
+		if (model.size() <= model.minSize())
+			continue;
+		const auto bounded = [&] {
+			std::set<Vertex> vertices;
+			for (int i = 0; i < model.size(); ++i)
+				if (model.curvature(i) > kMaxConeCurvature - 1e-9)
+					vertices.insert(model.vertex(i));
+			return vertices;
+		};
+		const Eigen::VectorXd needs = model.needs();
+		const double present = model.energy();
+		for (int i = 0; i < model.size(); ++i) {
+			std::set<Vertex> before = bounded();
+			const bool isHeld = before.erase(model.vertex(i)) > 0;
+			model.tryWithout(i, [&] {
+				if (bounded() == before) {
+					EXPECT_NEAR(model.energy() - present, needs[i], 1e-8 * model.energy());
+					++compared;
+					held += isHeld;
+					free += !isHeld && !before.empty();
+				}
+				return false;
+			});
+		}
+	}
+	EXPECT_GT(held, 5);
+	EXPECT_GT(free, 20);
+	EXPECT_GT(compared, held + free);
+}
+
 /// Two cones share the tip of a needle, which is more than one may have: without the other one is at its bound, and
 /// the energy rises by more than it would without bounds.
 TEST(ConeSearch, NoConeIsDroppedThatSavesMoreThanItsPrice)
