@@ -12,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -185,54 +184,49 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 	if (std::min(turns, options.turns) == ChartTurns::None)
 		return;
 	const double area = map.mesh.area();
-	const auto worth = [&](const Parametrization& m) {
-		return std::log(m.report.occupancy) -
-			   kPackingPrice * std::log(std::sqrt(area) + m.report.seamLength);
+	const auto price = [&] {
+		return kPackingPrice * std::log(std::sqrt(area) + map.report.seamLength);
 	};
 	// What cuts and packing change, where the map is not the best.
 	std::optional<
 		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
 		best;
-	double most = worth(map);
-	double loss = 0.0, surcharge = 0.0; // of the vain cuts together
-	bool isEnded = false;
-	for (int cuts = 0, vain = 0; loss < kMaxLoss; ++cuts) {
-		if (!best && map.report.occupancy > kEnoughCovered)
-			break;
-		isEnded = cuts == kMaxCuts;
-		const std::optional<ChartCut> cut = isEnded ? std::nullopt : findCutForPacking(map, area);
-		if (!cut)
-			break;
+	double least = std::log(map.report.occupancy) - price(); // a better one is worth more
+	double dearest = price() + kMaxLoss;
+	const auto cut = [&] {
+		if (price() >= dearest || std::log(kEnoughCovered) - price() <= least + kMinRoom)
+			return false;
+		const std::optional<ChartCut> next = findCutForPacking(map, area);
+		if (!next)
+			return false;
 		if (!best)
 			best.emplace(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report);
-		const bool isMirrored = map.charts[positionOf(cut->chart)].isMirrored;
-		cutChart(*cut, turns == ChartTurns::Free, map);
+		if (map.charts[positionOf(next->chart)].isMirrored)
+			least += kMirroredSurcharge *
+					 std::log1p(next->length / (std::sqrt(area) + map.report.seamLength));
+		least += kMinRoom;
+		cutChart(*next, turns == ChartTurns::Free, map);
+		return true;
+	};
+	for (int vain = 0; cut();) {
+		// As many more at once as were in vain: it takes longer to pack than to cut.
+		const int end = 2 * vain;
+		while (++vain < end && cut()) {
+		}
 		const double margin = map.report.margin;
 		packIntoSquare(map, options, turns);
 		if (map.report.margin < margin)
-			break; // there is no room for one chart more
-		++vain;
-		const double reached = worth(map);
-		const double seams = std::sqrt(area) + map.report.seamLength;
-		const double longer = std::log(seams / (seams - cut->length));
-		loss += kPackingPrice * longer;
-		surcharge += isMirrored ? kMirroredSurcharge * longer : 0.0;
-		if (reached > most + vain * kMinRoom + surcharge) {
+			break; // there is no room for so many charts
+		if (const double reached = std::log(map.report.occupancy) - price(); reached > least) {
 			best.reset();
-			most = reached;
+			least = reached;
+			dearest = price() + kMaxLoss;
 			vain = 0;
-			loss = surcharge = 0.0;
 		}
 	}
 	if (best)
 		std::tie(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report) =
 			*std::move(best);
-	if (isEnded) {
-		++map.report.endedEarly;
-		logLine(
-			"Cuts for packing stopped at " + std::to_string(kMaxCuts) +
-			": more cuts could still fill slightly more of the square.");
-	}
 }
 
 /// Scales a map and the boxes of its charts.

@@ -31,7 +31,8 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// turned as the smallest square round it lies.
 ///
 /// With \p mayCut charts are cut by findCutForPacking() as long as that is worth it (kPackingPrice) and each cut brings
-/// kMinRoom besides; until kEnoughCovered is covered. Without turns nothing is cut.
+/// kMinRoom besides; until kEnoughCovered is covered. After cuts that brought nothing, as many are made before the
+/// charts are packed again: packings grow with the logarithm of the cuts. Without turns nothing is cut.
 ///
 /// With PackOptions::tileSide charts are packed into tiles by their outlines, each into the first one in which there is
 /// room. With \p mayCut a chart that is too long for a tile is cut by findCutToFit(), and only such a chart.
@@ -45,14 +46,13 @@ void packCharts(
 	Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut = false);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
-/// little is left to win. Cuts in a row that bring nothing and whose prices together are kMaxLoss are not made up for by
-/// further ones, of which there are kMaxCuts at most.
+/// little is left to win: cuts end where that much would not be worth them. Cuts in a row that bring nothing and whose
+/// prices together are kMaxLoss are not made up for by further ones.
 ///
 /// With kPackingPrice these keep seams and charts few where covered squares have 0.62 of their area: on 79 meshes this
 /// cost 0.15 % of the objective and four charts in a thousand beside a price of 2.3 (0.596), at which a scan in one or two
 /// charts was never cut.
 constexpr double kMinRoom = 0.015, kEnoughCovered = 0.75, kMaxLoss = 0.03;
-constexpr int kMaxCuts = 24;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
