@@ -132,9 +132,8 @@ class Flattening(Parametrization):
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
     ended_early: int
-    """searches (cones, repair, least distortion or stretch, cuts for packing, division of
-    disks) that stopped at their work limit: the map is valid and could be slightly better; the
-    log says which"""
+    """searches (cones, repair, least distortion or stretch, division of disks) that stopped at
+    their work limit: the map is valid and could be slightly better; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -288,9 +287,8 @@ class Uniformization(Parametrization):
     """UV vertices that the repair moved; one that is moved again after rounding to float counts
     twice"""
     ended_early: int
-    """searches (cones, repair, least distortion or stretch, cuts for packing, division of
-    disks) that stopped at their work limit: the map is valid and could be slightly better; the
-    log says which"""
+    """searches (cones, repair, least distortion or stretch, division of disks) that stopped at
+    their work limit: the map is valid and could be slightly better; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int

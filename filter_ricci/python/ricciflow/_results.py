@@ -53,9 +53,9 @@ EUCLIDEAN_RESULTS = \
                   'UV vertices that the repair moved; one that is moved again after rounding '
                   'to float counts twice'),
  'ended_early': ('int',
-                 'searches (cones, repair, least distortion or stretch, cuts for packing, '
-                 'division of disks) that stopped at their work limit: the map is valid and '
-                 'could be slightly better; the log says which'),
+                 'searches (cones, repair, least distortion or stretch, division of disks) '
+                 'that stopped at their work limit: the map is valid and could be slightly '
+                 'better; the log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh'),
