@@ -457,7 +457,7 @@ int main(int argc, char** argv)
 	}
 	if (path.empty()) {
 		std::cerr << "usage: ricci_bench --header | "
-					 "[--method=intrinsic_flips|fixed_triangles|edge_swaps] "
+					 "[--method=intrinsic_flips|fixed_triangles|edge_swaps|thurston] "
 					 "[--geometry=euclidean|hyperbolic] [--flow-only] [--cone-distortion=X] "
 					 "MESH|generated[:FACES]|slab[:FACES]\n";
 		return 2;

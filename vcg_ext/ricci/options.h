@@ -21,7 +21,7 @@ enum class TargetCurvature {
 
 /// Which curvatures placed cones may have.
 enum class ConeRounding {
-	Free,        ///< any below 2 pi
+	Free,        ///< any up to 3 pi / 2
 	QuarterTurns ///< multiples of pi / 2, and so are the rotations across all seams, see
 				 ///< makeSeamless()
 };

@@ -84,9 +84,9 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 /// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
 /// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
 /// (cutting an edge costs its length on the surface). Cutting moves nothing in the plane, so each cut
-/// removes pairs and makes none. The cut is exact, but only the smaller side of it is searched (min_cut.h). A
-/// later cut can make an earlier one needless: joinParts() finds that. The same input always gives the same
-/// parts.
+/// removes pairs and makes none. The cut is exact where sheet and covered triangles lie near each other, else the
+/// least one among the triangles nearest to either. A later cut can make an earlier one needless: joinParts() finds
+/// that. The same input always gives the same parts.
 ///
 /// A fold may hide an overlap and then go to another part than the triangles that it hides: what appears
 /// in the parts is added to the pairs, and the chart is divided again. A chart of so many sheets that not

@@ -87,7 +87,7 @@ struct PlacedCones
 /// gradient at every vertex, the field phi with L phi = A u for the areas A, says what a cone gains
 /// there. Their method finds the minimum among all cones up to a total angle, by convex
 /// optimisation, and the number of cones follows; here the number is given, or what the distortion
-/// takes.
+/// takes, or what costs least.
 ///
 /// 1. Cones are added one by one where phi is farthest from its value at the cones that are there,
 ///    and all curvatures fitted again each time: orthogonal matching pursuit
@@ -117,10 +117,10 @@ placeCones(const EmbeddedSurface& surface, InitialPacking& start, const TargetRe
 PlacedCones
 placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest& request);
 
-/// Fits again the curvatures of the cones that \p flow has reached, and adds cones, until areas are
-/// expected to change as \p request allows (areaExcess() at its spread), or kMaxPlacedCones were
-/// added. The linear problem is that of the metric of \p flow, where it knows how far the first
-/// one was from the truth. Mean squares weigh the parts of the surface that have become very small or
+/// Places cones again with the linear problem of the metric of \p flow, which knows how far the first one was from
+/// the truth. For the least cost all are placed anew; for a spread the curvatures of the cones that \p flow has reached
+/// are fitted again and cones added, until areas are expected to change as \p request allows (areaExcess() at its
+/// spread), or kMaxPlacedCones were added. Mean squares weigh the parts of the surface that have become very small or
 /// very large, see tailWeights().
 /// \param flow on \p surface, with intrinsic flips and the boundary of \p request
 /// \param request without a count

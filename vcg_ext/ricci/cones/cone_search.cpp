@@ -187,9 +187,9 @@ sitesAround(const ConeSites& sites, Vertex site, double far, SearchFront<Vertex,
 /// Takes out the cone without which energy and prices fall most by ConeModel::needs(), of those without which they do
 /// fall.
 /// \param tree of the cones
-/// \param needed cones that are not tried; those that were tried and have stayed are put there: as others go, they are
-/// needed more
-/// \return false if they fall without none
+/// \param needed cones that are not tried; takes those that were tried and have stayed: mostly they are needed more as
+/// others go
+/// \return false if no cone is out
 bool dropDearest(ConeModel& model, SeamTree& tree, std::set<Vertex>& needed)
 {
 	const double present = model.energy();
