@@ -132,7 +132,7 @@ TEST(CornerLayout, TheCutMayCrossAnEndEdgeTwice)
 			for (int point : line.points)
 				crossings += !inputEdgeAt(r.refinement.source[point]).empty();
 		tooMany += crossings / 2; // a line is found from both its ends
-		NormalCoordinates tight(flow.result.input);
+		NormalCoordinates tight(flow.result.input(flow.surface()));
 		for (const auto* flips : {&flow.result.start.flips, &flow.result.flips})
 			for (const Edge e : *flips)
 				tight.flip(e);
@@ -145,7 +145,7 @@ TEST(CornerLayout, TheCutMayCrossAnEndEdgeTwice)
 /// Ends of the edges of the input that are not edges of the start.
 std::set<std::pair<int, int>> flippedInputEdges(const FlippedFlow& flow)
 {
-	NormalCoordinates coordinates(flow.result.input);
+	NormalCoordinates coordinates(flow.result.input(flow.surface()));
 	for (const Edge e : flow.result.start.flips)
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();

@@ -92,7 +92,7 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 
 OverlayPieces FlippedFlow::pieces() const
 {
-	return divideStartTriangles(result, base().faceCount());
+	return divideStartTriangles(domain, result);
 }
 
 SurfaceLayout FlippedFlow::refinement(const CutGraph& cutGraph) const

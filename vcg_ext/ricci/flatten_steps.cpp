@@ -168,7 +168,7 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const FlowResu
 	if (!isRefined(options))
 		return {};
 	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return divideStartTriangles(flow, domain.surface.triangulation.faceCount());
+	return divideStartTriangles(domain, flow);
 }
 
 SurfaceLayout layOutSurface(

@@ -133,7 +133,7 @@ Parametrization withOtherCones(
 	const double mostPromised = expected.total() + kBrokenPromise;
 	const bool isBroken = cost() > mostPromised;
 	const bool isBrokenByEnergy = isBroken && expected.total(factor) > mostPromised;
-	const auto tryOther = [&](const auto& ask, const auto& isWorth) { // null: it is
+	const auto tryOther = [&](const auto& ask, const auto& isWorth) {
 		auto next = otherMap(component, input, options, "the map before it stays", ask, isWorth);
 		if (!next)
 			return;
@@ -153,13 +153,19 @@ Parametrization withOtherCones(
 			[&](const Target& target) {
 				return target.expected && target.expected->total(factor) < cost();
 			});
+	VertexVector tried; // the curvature of the cones
 	for (const double spread : kSpreadsInstead)
 		if (cost() > kPoorCost || (isBroken && !isBrokenByEnergy && spread == kSpreadsInstead[0]))
 			tryOther(
 				[&](TargetRequest& request) {
 					request.goal = {ConeGoal::Spread, 0, spread};
 				},
-				nullptr);
+				[&](const Target& target) { // where no more may be placed, they are the same again
+					const bool isOther =
+						tried.size() != target.curvature.size() || tried != target.curvature;
+					tried = target.curvature;
+					return isOther;
+				});
 	return map;
 }
 

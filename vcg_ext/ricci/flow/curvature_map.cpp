@@ -34,7 +34,6 @@ CurvatureMap::CurvatureMap(Triangulation triangulation, EdgeArray<double> delta)
 	m_curvature.resize(t.vertexCount());
 	m_lengths.resize(t.edgeCount());
 	m_weights.resize(t.edgeCount());
-	m_cosineLess1.resize(t.edgeCount());
 	m_angles.assign(t.halfedgeCount(), 0.0);
 }
 
@@ -64,9 +63,10 @@ GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(
 	Triangulation triangulation, EdgeArray<double> delta, bool flips) :
 		CurvatureMap(std::move(triangulation), std::move(delta)),
 		m_flipsEdges(flips), m_circles(m_triangulation.vertexCount()),
-		m_excess(m_triangulation.edgeCount()), m_ratio(m_triangulation.edgeCount()),
-		m_halfWeights(m_triangulation.halfedgeCount(), 0.0)
+		m_excess(m_triangulation.edgeCount()), m_halfWeights(m_triangulation.halfedgeCount(), 0.0)
 {
+	if constexpr (!Geometry::scaleInvariant)
+		m_cosineLess1.resize(m_triangulation.edgeCount());
 }
 
 template<class Geometry>
@@ -84,7 +84,6 @@ void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
 {
 	release(m_circles);
 	release(m_excess);
-	release(m_ratio);
 	release(m_halfWeights);
 	release(m_kappa);
 	release(m_queue);
@@ -123,9 +122,10 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 			const auto& j = m_circles[t.target(e.halfedge())];
 			const auto edge = Geometry::edge(i, j, m_delta[e]);
 			m_lengths[e] = edge.length;
-			m_cosineLess1[e] = edge.cosineLess1;
+			if constexpr (!Geometry::scaleInvariant)
+				m_cosineLess1[e] = edge.cosineLess1;
 			m_excess[e] = edge.excess;
-			m_ratio[e] = i.s * j.s / edge.sine2;
+			m_weights[e] = i.s * j.s / edge.sine2; // of both circles, until the triangles are known
 		}
 	});
 }
@@ -224,7 +224,7 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 		const double d = m_delta[edge[k]];
 		const double height =
 			kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2.0);
-		m_halfWeights[h[k]] = factor * m_ratio[edge[k]] * height;
+		m_halfWeights[h[k]] = factor * m_weights[edge[k]] * height;
 		longest = std::max(longest, m_lengths[edge[k]]);
 		shortest = std::min(shortest, m_lengths[edge[k]]);
 	}
@@ -322,7 +322,7 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 		value[slot] = shift;
 	for (const Edge e : m_offDiagonal.indices()) {
 		const double w = map.weights()[e];
-		const double C = map.cosineLess1()[e];
+		const double C = map.cosineLess1(e);
 		const auto ends = map.triangulation().ends(e);
 		const int a = m_row[ends[0]], b = m_row[ends[1]];
 		if (a >= 0 && a == b) {

@@ -57,7 +57,7 @@ public:
 
 	/// cosh(length) - 1, which the hyperbolic plane adds to the diagonal of the Hessian; 0 in the
 	/// Euclidean.
-	const EdgeArray<double>& cosineLess1() const { return m_cosineLess1; }
+	double cosineLess1(Edge e) const { return m_cosineLess1.empty() ? 0.0 : m_cosineLess1[e]; }
 
 	/// Number of triangles that break the triangle inequality.
 	int brokenTriangles() const { return m_broken; }
@@ -131,7 +131,6 @@ private:
 	const bool m_flipsEdges;
 	VertexArray<typename Geometry::Circle> m_circles;
 	EdgeArray<double> m_excess;          // length less the radii
-	EdgeArray<double> m_ratio;           // s_i s_j / S_ij^2
 	HalfedgeArray<double> m_halfWeights; // the triangle's share of the weight
 	VertexArray<double> m_kappa;         // where edges flip
 	DelaunayQueue m_queue;

@@ -211,7 +211,6 @@ FlowRun::FlowRun(
 	const FlowProgress& progress) :
 		FlowRun(surface, options, progress)
 {
-	m_result.input = surface.triangulation;
 	m_result.start = std::move(start);
 	m_result.target = target;
 	begin();
@@ -226,7 +225,7 @@ FlowRun FlowRun::onDouble(
 	FlowRun run(surface, options, progress);
 	IntrinsicMesh mesh = doubleOf(surface.triangulation, surface.lengths, run.m_mirror);
 	run.m_result.doubled = true;
-	run.m_result.input = mesh.triangulation;
+	run.m_result.onDouble = mesh.triangulation;
 	run.m_result.start = initialPacking(std::move(mesh), run.m_mirror, options);
 	run.m_result.target = targetOnDouble(target, run.m_mirror);
 	run.begin();
@@ -238,7 +237,7 @@ void FlowRun::begin()
 	m_result.u = m_startU = startU();
 	m_map = curvatureMap(
 		m_result.start.mesh.triangulation,
-		m_result.start.delta,
+		std::move(m_result.start.delta),
 		m_result.target.background,
 		m_options.method == Method::IntrinsicFlips);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
@@ -401,7 +400,7 @@ std::vector<double> FlowRun::presentLoopLengths() const
 		lengths.push_back(m_map->lengths()[e]);
 	if (!m_result.doubled)
 		return lengths;
-	NormalCoordinates coordinates(m_result.input);
+	NormalCoordinates coordinates(m_result.onDouble);
 	for (const Edge e : m_result.start.flips)
 		coordinates.flip(e);
 	for (const Edge e : m_map->flips())

@@ -138,7 +138,7 @@ double NewtonSolver::roundingFloor()
 	m_diagonal.setZero();
 	const Triangulation& t = m_map->triangulation();
 	for (const Edge e : t.edges()) {
-		const double w = std::abs(m_map->weights()[e]) * (1.0 + m_map->cosineLess1()[e]);
+		const double w = std::abs(m_map->weights()[e]) * (1.0 + m_map->cosineLess1(e));
 		m_diagonal[t.origin(e.halfedge())] += w;
 		m_diagonal[t.target(e.halfedge())] += w;
 	}

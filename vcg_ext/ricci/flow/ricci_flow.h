@@ -42,9 +42,15 @@ struct FlowResult
 	EliminationOrder order;
 
 	// What leads from the input's triangles to those of the result:
-	Triangulation input;     ///< the surface, or its double
+	Triangulation onDouble;  ///< of the surface, if doubled
 	InitialPacking start;    ///< of the input
 	std::vector<Edge> flips; ///< from the start's triangulation to the last, in order
+
+	/// The triangulation of the surface on which the flow ran, or of its double.
+	const Triangulation& input(const EmbeddedSurface& surface) const
+	{
+		return doubled ? onDouble : surface.triangulation;
+	}
 
 	int flipCount() const { return static_cast<int>(start.flips.size() + flips.size()); }
 };

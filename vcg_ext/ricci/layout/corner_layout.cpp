@@ -48,8 +48,9 @@ cutOnEnd(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>
 	for (const Edge e : t.edges())
 		if (t.isBoundary(e))
 			isCurve[e] = 1;
-	isCurve.resize(flow.input.edgeCount(), 0); // the surface's edges come first
-	NormalCoordinates cut(flow.input, isCurve);
+	const Triangulation& input = flow.input(domain.solved());
+	isCurve.resize(input.edgeCount(), 0); // the surface's edges come first
+	NormalCoordinates cut(input, isCurve);
 	std::size_t done = 0;
 	for (const std::vector<Edge>* flips : {&flow.start.flips, &flow.flips})
 		for (const Edge e : *flips) {
@@ -179,8 +180,7 @@ public:
 		const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut) :
 			m_surface(domain.surface.triangulation),
 			m_end(flow.metric->triangulation()), m_isCut(isCut),
-			m_cut(cutOnEnd(domain, flow, isCut)), m_parts(m_end, m_cut),
-			m_wedges(cornerWedges(m_surface, isCut))
+			m_cut(cutOnEnd(domain, flow, isCut)), m_parts(m_end, m_cut)
 	{
 		int root = -1;
 		eachCorner([&](Halfedge, int sheet, std::size_t) { root = root < 0 ? sheet : root; });
@@ -210,7 +210,7 @@ private:
 	template<class Place>
 	PlanarLayout layout(const Place& place) const
 	{
-		PlanarLayout layout = m_wedges;
+		PlanarLayout layout = cornerWedges(m_surface, m_isCut);
 		eachCorner([&](Halfedge corner, int sheet, std::size_t k) {
 			layout[corner] = place(m_sheets.triangulation.halfedges(m_number[sheet])[k]);
 		});
@@ -276,8 +276,7 @@ private:
 	const EdgeArray<char>& m_isCut;
 	const NormalCoordinates m_cut;
 	const CutSheets m_parts;
-	const PlanarLayout m_wedges; // nothing placed
-	Array<Face> m_number;        // [sheet of m_parts] its face in m_sheets
+	Array<Face> m_number; // [sheet of m_parts] its face in m_sheets
 	EndSheets m_sheets;
 	Face m_root;
 };

@@ -232,12 +232,17 @@ bool divides(const Plane& plane, const EmbeddedSurface& surface, MirrorSymmetry&
 void mirrorEdges(const Triangulation& t, MirrorSymmetry& mirror)
 {
 	mirror.edgeImage.resize(t.edgeCount(), Edge());
+	VertexArray<int> degree(t.vertexCount(), 0);
+	for (const Halfedge h : t.halfedges())
+		++degree[t.origin(h)];
 	for (const Edge e : t.edges()) {
-		const auto [a, b] = t.ends(e);
-		if (!mirror.image[a].isValid() || !mirror.image[b].isValid())
+		Vertex a = mirror.image[t.ends(e)[0]], b = mirror.image[t.ends(e)[1]];
+		if (!a.isValid() || !b.isValid())
 			continue;
-		for (const Halfedge h : t.around(mirror.image[a]))
-			if (t.target(h) == mirror.image[b] && t.isBoundary(h.edge()) == t.isBoundary(e) &&
+		if (degree[b] < degree[a]) // the middle of a fan has many
+			std::swap(a, b);
+		for (const Halfedge h : t.around(a))
+			if (t.target(h) == b && t.isBoundary(h.edge()) == t.isBoundary(e) &&
 				(h.edge() == e) == isInPlane(t, mirror, e))
 				mirror.edgeImage[e] = h.edge();
 	}

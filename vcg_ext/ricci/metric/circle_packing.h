@@ -60,7 +60,7 @@ struct InitialPacking
 {
 	IntrinsicMesh mesh;
 	VertexArray<double> radii;
-	EdgeArray<double> delta; ///< inversive distance less one
+	EdgeArray<double> delta; ///< inversive distance less one; a flow takes it
 	std::vector<Edge> flips; ///< edges flipped since the input, in order
 	bool isDelaunay = false; ///< from delaunayPacking()
 	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()

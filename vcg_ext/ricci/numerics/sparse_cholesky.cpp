@@ -132,6 +132,7 @@ struct SparseCholesky::Implementation
 		entries = common.lnz;
 		if (factor == nullptr)
 			return false;
+		cholmod_l_free_work(&common);
 		solver.plan(*factor);
 		return true;
 	}
@@ -180,6 +181,7 @@ struct SparseCholesky::Implementation
 			takeLargePages(factor->x, factor->xsize * sizeof(double));
 		}
 		rethrowFromCholmod([&] { cholmod_l_factorize(a.get(), factor, &common); });
+		cholmod_l_free_work(&common);
 		if (common.status < CHOLMOD_OK)
 			fail(matrix);
 		return common.status == CHOLMOD_OK;
@@ -358,9 +360,22 @@ void SparseCholesky::takeValues(const Matrix& matrix)
 bool SparseCholesky::factorize(const Matrix& matrix)
 {
 	analyze(matrix);
-	if (matrix.rows() == 0)
-		return true;
 	takeValues(matrix);
+	return factorizeOrdered();
+}
+
+bool SparseCholesky::factorize(Matrix&& matrix)
+{
+	analyze(matrix);
+	takeValues(matrix);
+	matrix = Matrix();
+	return factorizeOrdered();
+}
+
+bool SparseCholesky::factorizeOrdered()
+{
+	if (m_ordered.rows() == 0)
+		return true;
 	const bool isDefinite = m_implementation->factorize(m_ordered);
 	++m_work.factorizations;
 	m_work.flops += factorFlops();

@@ -67,6 +67,7 @@ public:
 	/// \return false if \p matrix is not positive definite
 	/// \throw as analyze()
 	bool factorize(const Matrix& matrix);
+	bool factorize(Matrix&& matrix); ///< frees it before there is a factor
 
 	/// matrix^-1 \p rhs with the last factor, for any number of columns. Two columns take little more
 	/// than half as long as two calls.
@@ -104,6 +105,7 @@ private:
 	void takePattern(const Matrix& pattern);
 	void layOut();
 	void takeValues(const Matrix& matrix);
+	bool factorizeOrdered();
 	void solveOrdered(Eigen::VectorXd& x);
 
 	std::unique_ptr<Implementation> m_implementation;

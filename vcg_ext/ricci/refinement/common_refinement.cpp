@@ -100,7 +100,7 @@ opened(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& 
 		for (const Edge e : t.edges())
 			if (t.isBoundary(e))
 				open[e] = 1;
-	open.resize(flow.input.edgeCount(), 0); // the surface's edges come first
+	open.resize(flow.metric->triangulation().edgeCount(), 0); // the surface's edges come first
 	return open;
 }
 
@@ -151,8 +151,8 @@ public:
 		OverlayPieces pieces,
 		const EdgeArray<char>& isCut) :
 			m_surface(domain.surface),
-			m_flow(flow), m_end(flow.metric->triangulation()), m_surfaceCut(isCut),
-			m_isCut(opened(domain, flow, isCut)), m_pieces(std::move(pieces))
+			m_input(flow.input(domain.solved())), m_flow(flow), m_end(flow.metric->triangulation()),
+			m_surfaceCut(isCut), m_isCut(opened(domain, flow, isCut)), m_pieces(std::move(pieces))
 	{
 	}
 
@@ -340,12 +340,13 @@ private:
 			for (int i = 0; i < m_pieces.size(p); ++i) {
 				const Halfedge h = m_pieces(p, i).inputCorner;
 				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
-				if (h.isValid() && !m_flow.input.isExterior(h))
+				if (h.isValid() && !m_input.isExterior(h))
 					layout[h] = m_point[m_pieces.corner(p, i)];
 			}
 	}
 
 	const EmbeddedSurface& m_surface;
+	const Triangulation& m_input;
 	const FlowResult& m_flow;
 	const Triangulation& m_end;
 	const EdgeArray<char>& m_surfaceCut; // [surface edge]

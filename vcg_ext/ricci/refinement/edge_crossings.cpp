@@ -117,9 +117,10 @@ private:
 
 } // namespace
 
-EdgeCrossings::EdgeCrossings(const FlowResult& flow) :
-		inputOnStart(flow.input), endOnStart(flow.metric->triangulation()), m_flow(flow),
-		m_start(flow.start.mesh.triangulation)
+EdgeCrossings::EdgeCrossings(const Triangulation& inputTriangles, const FlowResult& flow) :
+		input(inputTriangles), inputOnStart(input), endOnStart(flow.metric->triangulation()),
+		m_flow(flow), m_start(flow.start.mesh.triangulation),
+		m_delta(inversiveDistancesLessOne(m_start, flow.start.mesh.lengths, flow.start.radii))
 {
 	const std::vector<Edge>& flowFlips = flow.flips;
 	for (const Edge e : flow.start.flips)
@@ -208,7 +209,7 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 	const Curve& curve = endCurves[e];
 	const std::size_t n = curve.crossings.size();
 	using Values = typename CarriedFunctions<Real>::Values;
-	const CarriedFunctions<Real> functions(m_start, m_flow.start.delta, curve);
+	const CarriedFunctions<Real> functions(m_start, m_delta, curve);
 	const auto& first = functions.values[0];
 	const auto& second = functions.values[1];
 	const auto& atA = functions.values[2];

@@ -61,12 +61,13 @@ public:
 	using Curve = NormalCoordinates::Curve;
 
 	/// Asks requireOverlayMemory() before there is an array of crossings.
-	explicit EdgeCrossings(const FlowResult& flow);
+	EdgeCrossings(const Triangulation& inputTriangles, const FlowResult& flow);
 
 	/// Number of a crossing of an input edge in inputCrossings, of an end edge in endCrossings.
 	int inputNumber(const NormalCoordinates::Crossing& x) const;
 	int endNumber(const NormalCoordinates::Crossing& x) const;
 
+	const Triangulation& input;
 	NormalCoordinates inputOnStart, endOnStart;
 	EdgeArray<Curve> inputCurves; ///< [input edge] on the start triangulation
 	EdgeArray<Curve> endCurves;   ///< [end edge] on the start triangulation
@@ -85,6 +86,7 @@ private:
 
 	const FlowResult& m_flow;
 	const Triangulation& m_start;
+	const EdgeArray<double> m_delta; // at the start
 };
 
 /// The point with \p share of edge \p e of the input, \p t.

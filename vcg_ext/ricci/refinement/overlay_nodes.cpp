@@ -78,7 +78,7 @@ void locateOnInput(
 	const auto ends = flow.start.mesh.triangulation.ends(e);
 	const auto onInputEdge = [&](const NodeOnEdge& node) {
 		const InputCrossing& x = crossings.inputCrossings[node.input];
-		return pointOfEdge(flow.input, x.edge, x.onInput);
+		return pointOfEdge(crossings.input, x.edge, x.onInput);
 	};
 	SurfacePoint before = atVertex(ends[0]);
 	double beforeShare = 0.0;

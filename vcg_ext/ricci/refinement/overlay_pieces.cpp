@@ -40,10 +40,9 @@ struct Chord
 class PieceMaker
 {
 public:
-	explicit PieceMaker(const FlowResult& flow) :
-			m_input(flow.input), m_start(flow.start.mesh.triangulation),
-			m_end(flow.metric->triangulation()), m_crossings(flow),
-			m_edgeNodes(flow, m_crossings, m_result.nodes)
+	PieceMaker(const Triangulation& input, const FlowResult& flow) :
+			m_start(flow.start.mesh.triangulation), m_end(flow.metric->triangulation()),
+			m_crossings(input, flow), m_edgeNodes(flow, m_crossings, m_result.nodes)
 	{
 	}
 
@@ -234,7 +233,7 @@ private:
 		const double onA = keepInside(ofP / (ofP - ofQ)), onB = keepInside(ofR / (ofR - ofS));
 
 		OverlayNode node;
-		node.point = pointOfEdge(m_input, a.edge, mix(a.from.share, a.to.share, onA));
+		node.point = pointOfEdge(m_crossings.input, a.edge, mix(a.from.share, a.to.share, onA));
 		// On the end edge by weights: both ends of the chord are crossings with it, or vertices.
 		const EdgeWeights onChord{
 			(1.0 - onB) * m_result.nodes[nodeOf(b.from.halfedge, b.from.index)].scale,
@@ -268,7 +267,7 @@ private:
 				const ChordArrangement::Line& line = m_arrangement.line(index);
 				for (const std::size_t family : {kInput, kEnd})
 					if (line.chord[family] >= 0) {
-						const Triangulation& t = family == kInput ? m_input : m_end;
+						const Triangulation& t = family == kInput ? m_crossings.input : m_end;
 						corner[family] = t.previous(corner[family]).twin();
 					}
 				m_cornerNames[k].push_back(corner);
@@ -276,7 +275,6 @@ private:
 		}
 	}
 
-	const Triangulation& m_input;
 	const Triangulation& m_start;
 	const Triangulation& m_end;
 	OverlayPieces m_result;
@@ -405,17 +403,18 @@ void OverlayPieces::link(const Triangulation& input, const Triangulation& end, i
 	}
 }
 
-OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces)
+OverlayPieces divideStartTriangles(const FlowDomain& domain, const FlowResult& flow)
 {
+	const Triangulation& input = flow.input(domain.solved());
 	advance(0.0, kDividing);
 	OverlayPieces pieces = [&] {
 		const Task dividing(0.0, kDivided);
-		return PieceMaker(flow).run();
+		return PieceMaker(input, flow).run();
 	}();
 	advance(kDivided, kDividing);
 	const Triangulation& end = flow.metric->triangulation();
 	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
-	pieces.link(flow.input, end, keptFaces);
+	pieces.link(input, end, domain.surface.triangulation.faceCount());
 	return pieces;
 }
 

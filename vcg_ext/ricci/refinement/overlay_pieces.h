@@ -225,10 +225,10 @@ private:
 ///
 /// Asks requireOverlayMemory() before there is an array of crossings.
 /// \pre the flow ran with intrinsic flips
-/// \param keptFaces of the input: where the flow's surface goes on beyond the one that is wanted (its double,
-/// caps on holes), the overlay ends at its boundary
+/// \param domain where the flow's surface goes on beyond the domain's (its double, caps on holes), the overlay ends at
+/// the boundary of that
 /// \throw InternalError if the chords do not fit together: a fault of the program
-OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces);
+OverlayPieces divideStartTriangles(const FlowDomain& domain, const FlowResult& flow);
 
 /// A corner of a piece in the piece's end triangle.
 /// \throw InternalError if the corner is not in that triangle: a fault of the program
