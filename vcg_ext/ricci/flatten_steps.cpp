@@ -162,23 +162,14 @@ CutGraph cutDomain(
 	return cut;
 }
 
-OverlayPieces
-flowOverlay(const FlowDomain& domain, const FlowOptions& options, const FlowResult& flow)
-{
-	if (!isRefined(options))
-		return {};
-	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return divideStartTriangles(flow, domain.surface.triangulation.faceCount());
-}
-
 SurfaceLayout layOutSurface(
 	const FlowDomain& domain,
-	OverlayPieces overlay,
 	const FlowOptions& options,
 	const FlowResult& flow,
 	const EdgeArray<char>& isCut)
 {
-	return isRefined(options) ? layOutRefinement(domain, flow, std::move(overlay), isCut)
+	advance(1.0 - kAfterFlow, "Laying out the triangles");
+	return isRefined(options) ? layOutRefinement(domain, flow, isCut)
 							  : layOutCorners(domain, flow, isCut);
 }
 

@@ -192,17 +192,14 @@ PlaneMap layOut(
 	const FlowResult& flow,
 	CutGraph& cut)
 {
-	OverlayPieces overlay = flowOverlay(domain, options, flow);
-	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
-	SurfaceLayout layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
+	SurfaceLayout layout = layOutSurface(domain, options, flow, cut.isCut);
 	if (domain.surface.topology.type.boundaryLoops - domain.holes > 1) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = cut.edgeCount();
 		dropSeamsToHoles(t, loopsThatClose(t, layout.corners, cut.isCut), cut);
 		if (cut.edgeCount() < edges)
-			layout =
-				layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
+			layout = layOutSurface(domain, options, flow, cut.isCut);
 	}
 	PlaneMap map;
 	map.mesh = flatMeshOf(component, domain, layout.corners);

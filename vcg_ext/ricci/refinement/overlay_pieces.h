@@ -245,7 +245,7 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 std::vector<std::array<std::size_t, 3>>
 triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& space);
 
-/// The layout of the overlay \p pieces of the triangles of the input, of the start and of the end of \p flow, cut
+/// The layout of the overlay, divideStartTriangles(), of the triangles of the input, of the start and of the end of \p flow, cut
 /// along the surface's edges with \p isCut: every piece lies in one triangle of each, and the map to the plane or
 /// the disk is the flow's own there. The vertices of the refinement are the surface's, then the points where
 /// edges cross.
@@ -255,11 +255,8 @@ triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& sp
 /// end triangle with the same vertices [Springborn Schroeder Pinkall 2008], [Bobenko Lutz 2023];
 /// on the refinement it is continuous across all edges [Gillespie Springborn Crane 2021].
 /// \pre the flow ran with intrinsic flips
-SurfaceLayout layOutRefinement(
-	const FlowDomain& domain,
-	const FlowResult& flow,
-	OverlayPieces pieces,
-	const EdgeArray<char>& isCut);
+SurfaceLayout
+layOutRefinement(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut);
 
 } // namespace ricci
 
