@@ -3,7 +3,6 @@
 #define RICCI_BOX_TREE_H
 
 #include "indexed.h"
-#include "parallel.h"
 #include "points.h"
 
 #include <algorithm>
@@ -29,10 +28,8 @@ public:
 				{{0.5 * (b.min[0] + b.max[0]), 0.5 * (b.min[1] + b.max[1])}, items.size()});
 		m_order.resize(boxes.size());
 		m_boxes.resize(boxes.size());
-		if (boxes.empty())
-			return;
-		m_nodes.resize(nodeCount(items.size()));
-		build(items, boxes, 0, items.size(), 0);
+		if (!boxes.empty())
+			build(items, boxes, 0, items.size());
 	}
 
 	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common, without those in two nodes
@@ -131,29 +128,20 @@ private:
 	using Item = std::pair<Point2, int>; ///< centre and number of a box
 
 	static constexpr int kLeaf = 4; // boxes
-	/// Boxes of which each half is worth a thread's help: a millisecond.
-	static constexpr int kWorthHelp = 16384;
 
-	/// Of a tree of so many boxes.
-	static int nodeCount(int boxes)
+	/// Adds the node of items[first .. last - 1], and those below it after it.
+	/// \return its number
+	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last)
 	{
-		return boxes <= kLeaf ? 1 : 1 + nodeCount(boxes / 2) + nodeCount(boxes - boxes / 2);
-	}
-
-	/// Fills the node of items[first .. last - 1], number \p index, and those below it, which follow it.
-	/// \return the number after their last
-	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last, int index)
-	{
-		Node& node = m_nodes[index];
-		node.first = first;
-		node.last = last;
+		const int index = m_nodes.size();
+		m_nodes.push_back({{}, first, last});
 		if (last - first <= kLeaf) {
 			for (int i = first; i < last; ++i) {
 				m_order[i] = items[i].second;
 				m_boxes[i] = boxes[positionOf(m_order[i])];
-				node.box.add(m_boxes[i]);
+				m_nodes[index].box.add(m_boxes[i]);
 			}
-			return index + 1;
+			return index;
 		}
 		Box2 centres;
 		for (int i = first; i < last; ++i)
@@ -167,25 +155,12 @@ private:
 			[axis](const Item& x, const Item& y) {
 				return std::tie(x.first[axis], x.second) < std::tie(y.first[axis], y.second);
 			});
-		node.left = index + 1;
-		int after = 0;
-		if (last - first < kWorthHelp) {
-			node.right = build(items, boxes, first, middle, node.left);
-			after = build(items, boxes, middle, last, node.right);
+		for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
+			const int half = build(items, boxes, from, to);
+			(from == first ? m_nodes[index].left : m_nodes[index].right) = half;
+			m_nodes[index].box.add(m_nodes[half].box);
 		}
-		else {
-			node.right = node.left + nodeCount(middle - first);
-			const auto buildHalves = [&](int from, int to) {
-				if (from == 0)
-					build(items, boxes, first, middle, node.left);
-				if (to == 2)
-					after = build(items, boxes, middle, last, node.right);
-			};
-			inParallel(2, defaultThreads(), buildHalves, 1);
-		}
-		node.box.add(m_nodes[node.left].box);
-		node.box.add(m_nodes[node.right].box);
-		return after;
+		return index;
 	}
 
 	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is;

@@ -149,8 +149,7 @@ std::vector<Point2> convexHull(std::vector<Point2> points)
 {
 	if (!points.empty())
 		dropInside(points);
-	std::sort(points.begin(), points.end());
-	points.erase(std::unique(points.begin(), points.end()), points.end());
+	sortUnique(points);
 	if (points.size() < 3)
 		return points;
 	std::vector<Point2> hull;

@@ -94,19 +94,12 @@ inline double distance(const Point2& a, const Point2& b)
 	return length(a - b);
 }
 
-/// The root of x^2 + y^2 + z^2. std::hypot of three underflows in some libraries.
-inline double hypotOfThree(double x, double y, double z)
-{
-	const double size = std::max({std::abs(x), std::abs(y), std::abs(z)});
-	if (size == 0.0)
-		return 0.0;
-	return size *
-		   std::sqrt((x / size) * (x / size) + (y / size) * (y / size) + (z / size) * (z / size));
-}
-
+/// Of three, std::hypot underflows in some libraries.
 inline double length(const Point3& a)
 {
-	return hypotOfThree(a[0], a[1], a[2]);
+	const double size = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+	const Point3 unit = a / (size > 0.0 ? size : 1.0);
+	return size * std::sqrt(dot(unit, unit));
 }
 
 inline double distance(const Point3& a, const Point3& b)

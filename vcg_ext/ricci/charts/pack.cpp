@@ -13,7 +13,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
@@ -189,10 +188,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		return std::log(m.report.occupancy) -
 			   kPackingPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
-	// What cuts and packing change, where the map is not the best.
-	std::optional<
-		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
-		best;
+	std::optional<Parametrization> best; // where the map is not
 	double most = worth(map);
 	double loss = 0.0, surcharge = 0.0; // of the vain cuts together
 	bool isEnded = false;
@@ -204,7 +200,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		if (!cut)
 			break;
 		if (!best)
-			best.emplace(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report);
+			best = map;
 		const bool isMirrored = map.charts[positionOf(cut->chart)].isMirrored;
 		cutChart(*cut, turns == ChartTurns::Free, map);
 		const double margin = map.report.margin;
@@ -225,8 +221,7 @@ void packWithCuts(Parametrization& map, const PackOptions& options, ChartTurns t
 		}
 	}
 	if (best)
-		std::tie(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report) =
-			*std::move(best);
+		map = *std::move(best);
 	if (isEnded) {
 		++map.report.endedEarly;
 		logLine(

@@ -127,28 +127,23 @@ std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount)
 FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 {
 	FlatMesh part;
-	int low = place.size(), high = -1; // points of a chart mostly have numbers near each other
+	std::vector<int> own; // points, in increasing order
 	for (const int f : triangles)
-		for (const int p : points[f]) {
-			low = std::min(low, p);
-			high = std::max(high, p);
-		}
-	Array<int> number(std::max(0, high + 1 - low), -1); // [point - low]
-	for (const int f : triangles)
-		for (const int p : points[f])
-			number[p - low] = 0;
-	for (const int p : number.indices())
-		if (number[p] == 0) {
-			number[p] = part.place.size();
-			part.place.push_back(place[low + p]);
-		}
+		own.insert(own.end(), points[f].begin(), points[f].end());
+	sortUnique(own);
+	for (const int p : own)
+		part.place.push_back(place[p]);
+	const auto numberIn = [](const std::vector<int>& numbers, int wanted) {
+		const auto found = std::lower_bound(numbers.begin(), numbers.end(), wanted);
+		return static_cast<int>(found - numbers.begin());
+	};
 	part.points.reserve(triangles.size());
 	part.vertices.reserve(triangles.size());
 	part.lengths.reserve(triangles.size());
 	part.face.reserve(triangles.size());
 	for (const int f : triangles) {
 		const Triangle& p = points[f];
-		part.points.push_back({number[p[0] - low], number[p[1] - low], number[p[2] - low]});
+		part.points.push_back({numberIn(own, p[0]), numberIn(own, p[1]), numberIn(own, p[2])});
 		part.vertices.push_back(vertices[f]);
 		part.lengths.push_back(lengths[f]);
 		part.face.push_back(face[f]);

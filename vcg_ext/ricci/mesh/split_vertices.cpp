@@ -105,10 +105,8 @@ std::vector<std::array<Corner, 2>> findSplitVertices(
 		ends.push_back(triangles[side]);
 		ends.push_back(triangles[side.next()]);
 	}
-	for (std::vector<int>* numbers : {&faces, &ends}) {
-		std::sort(numbers->begin(), numbers->end());
-		numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
-	}
+	sortUnique(faces);
+	sortUnique(ends);
 	const Array<int> place = placesOf(positions, part, ends);
 	std::vector<Triangle> byPlace; // of the faces
 	for (const int f : faces) {
