@@ -42,42 +42,6 @@ Eigen::VectorXd randomVector(Eigen::Index n, Random& random)
 	return Eigen::VectorXd::NullaryExpr(n, [&] { return random.real(-1, 1); });
 }
 
-/// A pattern with a few links more.
-TEST(SparseCholesky, TakesTheOrderOfAnother)
-{
-	Random random(61);
-	const int n = 500;
-	const SparseCholesky::Matrix matrix = laplacian(n, 0.5, random);
-	SparseCholesky first, second, alone;
-	ASSERT_TRUE(first.factorize(matrix));
-	SparseCholesky::Matrix next = matrix;
-	for (const int row : {100, 300, 499})
-		next.coeffRef(row, row - 3) = -0.1;
-	next.makeCompressed();
-	second.takeOrder(first.order());
-	ASSERT_TRUE(second.factorize(next));
-	EXPECT_EQ(second.work().orderings, 0);
-	EXPECT_TRUE(second.order().position == first.order().position);
-	ASSERT_TRUE(alone.factorize(next));
-	EXPECT_EQ(alone.work().orderings, 1);
-	EXPECT_LT(second.factorEntries(), 1.5 * alone.factorEntries());
-	const Eigen::VectorXd b = randomVector(n, random);
-	EXPECT_LT((second.solve(b) - alone.solve(b)).lpNorm<Eigen::Infinity>(), 1e-12);
-	// It is not kept where the same unknowns have other numbers.
-	SparseCholesky::Matrix other(n, n);
-	Eigen::PermutationMatrix<Eigen::Dynamic> numbers(n);
-	for (int i = 0; i < n; ++i)
-		numbers.indices()[i] = i * 7 % n;
-	other.selfadjointView<Eigen::Lower>() =
-		matrix.selfadjointView<Eigen::Lower>().twistedBy(numbers);
-	SparseCholesky stranger, own;
-	stranger.takeOrder(first.order());
-	ASSERT_TRUE(stranger.factorize(other));
-	EXPECT_EQ(stranger.work().orderings, 1);
-	ASSERT_TRUE(own.factorize(other));
-	EXPECT_LT(stranger.factorEntries(), 1.2 * own.factorEntries());
-}
-
 TEST(SparseCholesky, SolvesLikeADenseSolver)
 {
 	Random random(60);

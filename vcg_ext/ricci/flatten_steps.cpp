@@ -180,7 +180,7 @@ InvariantReport measurePeriods(const SurfaceType& type, const FlowResult& flow)
 		return report;
 	advance(0.0, "Period matrix");
 	const IntrinsicMesh& start = flow.start.mesh;
-	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths, flow.order);
+	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths);
 	for (const auto row : periods.omega.rowwise())
 		report.periodMatrix.insert(report.periodMatrix.end(), row.begin(), row.end());
 	if (periods.omega.size() > 0)

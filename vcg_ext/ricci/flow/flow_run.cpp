@@ -242,10 +242,8 @@ void FlowRun::begin()
 		m_result.target.background,
 		m_options.method == Method::IntrinsicFlips);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
-	if (auto known = std::exchange(m_result.start.hessian, nullptr)) {
+	if (auto known = std::exchange(m_result.start.hessian, nullptr))
 		m_newton->beginWith(std::move(known));
-		m_result.order = m_newton->order();
-	}
 }
 
 /// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
@@ -422,8 +420,6 @@ std::vector<double> FlowRun::presentLoopLengths() const
 void FlowRun::end()
 {
 	m_result.work = m_newton->work();
-	if (m_result.order.position.size() == 0)
-		m_result.order = m_newton->order();
 	m_newton.reset();
 	m_map->releaseWorkSpace();
 }

@@ -71,9 +71,6 @@ public:
 	/// What its last linear solver has done, for others before, too.
 	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
 
-	/// SparseCholesky::order().
-	const EliminationOrder& order() const { return m_hessian->cholesky().order(); }
-
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }
 

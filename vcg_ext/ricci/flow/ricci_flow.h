@@ -38,8 +38,6 @@ struct FlowResult
 	int iterations = 0;
 	int swaps = 0, splits = 0; ///< over all starts, see flowWithEdgeSwaps()
 	CholeskyWork work;         ///< of the last linear solver, before the flow, too
-	/// Of the linear solver: on the start's triangles where that has been factorised before, else on the last.
-	EliminationOrder order;
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double

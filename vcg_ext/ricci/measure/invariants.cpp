@@ -218,8 +218,7 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 Eigen::MatrixXd energies(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
-	const std::vector<FaceLoop>& loops,
-	const EliminationOrder& order)
+	const std::vector<FaceLoop>& loops)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -227,8 +226,6 @@ Eigen::MatrixXd energies(
 	for (const Vertex v : t.vertices())
 		row[v] = v.number() - 1;
 	SparseCholesky cholesky;
-	if (order.position.size() == unknowns)
-		cholesky.takeOrder(order);
 	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns))))
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
@@ -338,11 +335,10 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix periodMatrix(
-	const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order)
+PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
 {
 	const std::vector<FaceLoop> loops = homologyLoops(t, false);
-	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, order);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);
 	if (energy.size() == 0)
 		return {};
 	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));

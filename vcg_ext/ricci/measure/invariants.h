@@ -64,10 +64,8 @@ struct PeriodMatrix
 /// Where there is no cone, as on flat tori, it is rounding alone.
 ///
 /// \param lengths of the edges; the bound is best on the Delaunay triangulation [Rippa 1990]
-/// \param order of a solver whose unknowns are all vertices but the first (SparseCholesky::order()), if there is one
 /// \pre \p t is connected, closed and of genus 1 at least; its triangles have an area
-PeriodMatrix periodMatrix(
-	const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order = {});
+PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths);
 
 /// The period matrix in another basis [Siegel 1989], [Deconinck et al. 2004]: its imaginary part is
 /// reduced in the sense of Minkowski up to g = 4 (beyond that, no vector of the basis is made shorter

@@ -10,7 +10,6 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <new>
@@ -20,10 +19,6 @@
 
 #ifdef RICCI_USE_CHOLMOD
 #include "supernodal_solver.h"
-#ifdef __linux__
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
 #else
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
@@ -63,19 +58,6 @@ private:
 	std::vector<Long> m_starts, m_rows;
 	cholmod_sparse m_view{};
 };
-
-/// Asks for large pages where the system has them: a factor is written and read as a whole, many times. That saves some
-/// 2 % of the time of a map of 100,000 triangles.
-void takeLargePages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes)
-{
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-	static const auto page =
-		static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); // madvise() takes only whole ones
-	const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
-	if (bytes > before + page)
-		madvise(static_cast<char*>(begin) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
-#endif
-}
 
 } // namespace
 
@@ -174,11 +156,6 @@ struct SparseCholesky::Implementation
 	{
 		const OneThread oneThread;
 		View a(matrix);
-		if (factor->xtype == CHOLMOD_PATTERN) {
-			if (!cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common))
-				fail(matrix);
-			takeLargePages(factor->x, factor->xsize * sizeof(double));
-		}
 		rethrowFromCholmod([&] { cholmod_l_factorize(a.get(), factor, &common); });
 		if (common.status < CHOLMOD_OK)
 			fail(matrix);
@@ -275,31 +252,23 @@ void SparseCholesky::takePattern(const Matrix& pattern)
 	m_isAnalyzed = false;
 	m_starts.assign(starts, startsEnd);
 	m_rows.assign(rows, rowsEnd);
-	if (m_order.position.size() != pattern.rows()) {
-		m_order.position.setLinSpaced(pattern.rows(), 0, static_cast<int>(pattern.rows()) - 1);
-		m_order.flops = 0.0;
+	if (m_position.size() != pattern.rows()) {
+		m_position.setLinSpaced(pattern.rows(), 0, static_cast<int>(pattern.rows()) - 1);
+		m_flopsInOrder = 0.0;
 	}
 	layOut();
-}
-
-void SparseCholesky::takeOrder(const EliminationOrder& order)
-{
-	m_order = order;
-	m_isAnalyzed = false;
-	m_starts.clear(); // so that the next pattern is laid out
 }
 
 /// Makes the pattern of m_ordered, and m_entry.
 void SparseCholesky::layOut()
 {
 	using Entry = std::pair<int, int>; // row, number
-	const Eigen::VectorXi& position = m_order.position;
-	const auto count = static_cast<int>(position.size());
+	const auto count = static_cast<int>(m_position.size());
 	Adjacency<int, Entry> entries(count, [&](const auto& add) {
 		for (int column = 0, i = 0; column < count; ++column)
 			for (; i < m_starts[positionOf(column) + 1]; ++i) {
 				const auto [low, high] =
-					std::minmax(position[m_rows[positionOf(i)]], position[column]);
+					std::minmax(m_position[m_rows[positionOf(i)]], m_position[column]);
 				add(low, Entry(high, i));
 			}
 	});
@@ -328,22 +297,22 @@ void SparseCholesky::analyze(const Matrix& pattern)
 		own.analyze(m_ordered);
 		++m_work.analyses;
 	};
-	if (m_order.flops > 0.0)
+	if (m_flopsInOrder > 0.0)
 		analyzeOrdered();
-	if (m_order.flops == 0.0 || own.flops > kMaxGrowth * m_order.flops) {
+	if (m_flopsInOrder == 0.0 || own.flops > kMaxGrowth * m_flopsInOrder) {
 		const std::vector<int> unknown = own.order(m_ordered);
 		++m_work.orderings;
-		Eigen::VectorXi position(m_order.position.size());
+		Eigen::VectorXi position(m_position.size());
 		for (int i = 0; i < position.size(); ++i)
 			position[unknown[positionOf(i)]] = i;
-		for (int& i : m_order.position)
+		for (int& i : m_position)
 			i = position[i];
 		layOut();
 		if (Implementation::kOrderAnalyzes)
 			++m_work.analyses;
 		else
 			analyzeOrdered();
-		m_order.flops = own.flops;
+		m_flopsInOrder = own.flops;
 	}
 	m_isAnalyzed = true;
 }
@@ -376,32 +345,27 @@ void SparseCholesky::solveOrdered(Eigen::VectorXd& x)
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs)
 {
-	const Eigen::VectorXi& position = m_order.position;
-	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-	if (x.rows() == 0)
-		return x;
+	if (rhs.rows() == 0)
+		return rhs;
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_position);
+	Eigen::MatrixXd x = order * rhs;
 	Eigen::Index column = 0;
 	Eigen::VectorXcd pair(rhs.cols() > 1 ? x.rows() : 0);
 	for (; column + 2 <= x.cols(); column += 2) {
-		for (Eigen::Index i = 0; i < x.rows(); ++i)
-			pair[position[i]] = {rhs(i, column), rhs(i, column + 1)};
+		pair.real() = x.col(column);
+		pair.imag() = x.col(column + 1);
 		m_implementation->solve(pair);
 		m_work.solutions += 2;
 		m_work.flops += 8.0 * factorEntries();
-		for (Eigen::Index i = 0; i < x.rows(); ++i) {
-			x(i, column) = pair[position[i]].real();
-			x(i, column + 1) = pair[position[i]].imag();
-		}
+		x.col(column) = pair.real();
+		x.col(column + 1) = pair.imag();
 	}
 	if (column < x.cols()) {
-		Eigen::VectorXd last(x.rows());
-		for (Eigen::Index i = 0; i < x.rows(); ++i)
-			last[position[i]] = rhs(i, column);
+		Eigen::VectorXd last = x.col(column);
 		solveOrdered(last);
-		for (Eigen::Index i = 0; i < x.rows(); ++i)
-			x(i, column) = last[position[i]];
+		x.col(column) = last;
 	}
-	return x;
+	return order.transpose() * x;
 }
 
 namespace {
@@ -434,7 +398,7 @@ int SparseCholesky::iterate(
 	gradients.setTolerance(accuracy);
 	gradients.setMaxIterations(maxIterations);
 	gradients.compute(m_ordered);
-	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order.position);
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_position);
 	x = order.transpose() * gradients.solve(order * rhs).eval();
 	const bool isSolved = gradients.info() == Eigen::Success && x.allFinite();
 	return isSolved ? static_cast<int>(gradients.iterations()) : maxIterations + 1;

@@ -19,13 +19,6 @@ struct CholeskyWork
 	double flops = 0.0; ///< floating-point operations of all of them
 };
 
-/// The order in which a SparseCholesky eliminates unknowns.
-struct EliminationOrder
-{
-	Eigen::VectorXi position; ///< [unknown] when it is eliminated
-	double flops = 0.0;       ///< floating-point operations of a factorisation when it was chosen
-};
-
 /// Solver of symmetric positive definite sparse systems given by their lower triangle: supernodal
 /// CHOLMOD [Chen et al. 2008] where it was found at build time (RICCI_USE_CHOLMOD; with
 /// RICCI_STATIC_CHOLMOD its static library, with cholmod_blas.cpp and without METIS), Eigen's
@@ -55,13 +48,8 @@ public:
 	/// InternalError where CHOLMOD fails otherwise
 	void analyze(const Matrix& pattern);
 
-	/// That of the last analyze().
-	const EliminationOrder& order() const { return m_order; }
-
-	/// Takes the order() of another solver, of as many unknowns, which else takes up to half as long to find as
-	/// the factor. It is kept as analyze() keeps its own: not where the pattern is so different that a
-	/// factorisation is half as expensive again as there.
-	void takeOrder(const EliminationOrder& order);
+	/// [unknown] When it is eliminated, since the last analyze().
+	const Eigen::VectorXi& position() const { return m_position; }
 
 	/// Numeric factorisation, after analyze().
 	/// \return false if \p matrix is not positive definite
@@ -109,7 +97,8 @@ private:
 	std::unique_ptr<Implementation> m_implementation;
 	CholeskyWork m_work;
 	std::vector<int> m_starts, m_rows; // of the last matrix
-	EliminationOrder m_order;
+	Eigen::VectorXi m_position;
+	double m_flopsInOrder = 0.0; // of a factorisation when the order was chosen
 	Matrix m_ordered;          // the last matrix, its unknowns in that order
 	std::vector<int> m_entry;  // [entry of it] number among those of the last matrix
 	bool m_isAnalyzed = false; // the symbolic factor is that of the last matrix

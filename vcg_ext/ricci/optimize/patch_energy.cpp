@@ -169,7 +169,7 @@ bool PatchEnergy::newtonStep(
 		slot = add(element, x, eps, gradient, slot);
 	Eigen::VectorXd diagonals(m_size); // in the order of elimination
 	for (int column = 0; column < m_size; ++column)
-		diagonals[m_solver.order().position[column]] = diagonal(column);
+		diagonals[m_solver.position()[column]] = diagonal(column);
 	const double trace = std::accumulate(diagonals.begin(), diagonals.end(), 0.0);
 	if (!std::isfinite(trace))
 		return false;
