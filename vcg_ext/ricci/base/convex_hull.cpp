@@ -4,51 +4,13 @@
 #include "numbers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 namespace ricci {
 
 namespace {
-
-/// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
-/// tell: they are not corners of the convex hull.
-void dropInside(std::vector<Point2>& points)
-{
-	static constexpr std::array<Point2, 8> directions{
-		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-	std::array<double, 8> farthest;
-	farthest.fill(-kInfinity);
-	std::array<Point2, 8> polygon{}; // counter-clockwise
-	double largest = 0.0;
-	for (const Point2& p : points) {
-		largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-		for (std::size_t k = 0; k < 8; ++k)
-			if (const double along = directions[k][0] * p[0] + directions[k][1] * p[1];
-				along > farthest[k]) {
-				farthest[k] = along;
-				polygon[k] = p;
-			}
-	}
-	// A polygon that is seen counter-clockwise on all sides goes round.
-	// More than the rounding error of a doubled area.
-	const double minArea = std::max(
-		64.0 * std::numeric_limits<double>::epsilon() * largest * largest,
-		std::numeric_limits<double>::min());
-	const auto isInside = [&](const Point2& p) {
-		for (std::size_t k = 0; k < 8; ++k) {
-			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
-			if (a != b && !(doubledArea(a, b, p) > minArea))
-				return false;
-		}
-		return true;
-	};
-	if (polygon.front() != polygon[4] || polygon[2] != polygon[6])
-		points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
-}
 
 /// Leaves out the side of a convex polygon that adds the least area, where its neighbours meet.
 /// \return false, and nothing is done, if no neighbours do
@@ -147,8 +109,6 @@ std::size_t bestSide(const std::vector<Point2>& hull)
 
 std::vector<Point2> convexHull(std::vector<Point2> points)
 {
-	if (!points.empty())
-		dropInside(points);
 	sortUnique(points);
 	if (points.size() < 3)
 		return points;
