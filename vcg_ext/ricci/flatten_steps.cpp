@@ -43,7 +43,7 @@ bool isHardlyLonger(const EmbeddedSurface& surface, const CutGraph& cut, const C
 	double more = 0.0;
 	for (const Edge e : surface.lengths.indices())
 		more += (cut.isCut[e] - other.isCut[e]) * surface.lengths[e];
-	const double size = std::sqrt(vertexAreas(surface.triangulation, surface.lengths).sum());
+	const double size = std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
 	return kSeamPrice * more <= kMirrorPrice * expectedEnergy(0.0) * size;
 }
 
