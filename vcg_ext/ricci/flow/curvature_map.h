@@ -9,7 +9,6 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -175,7 +174,7 @@ public:
 	void fill(const CurvatureMap& map);
 
 	/// Takes another matrix of these unknowns.
-	void fill(Matrix lower) { m_matrix = std::move(lower); }
+	void fill(const Matrix& lower) { m_matrix = lower; }
 
 	/// Factorises the matrix as it is filled. Where it is not positive definite, and where triangles
 	/// were broken (their derivatives are 0), a shift is added to the diagonal.

@@ -216,9 +216,7 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 /// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
 /// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
-	const Triangulation& t,
-	const EdgeArray<double>& weights,
-	const std::vector<FaceLoop>& loops)
+	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<FaceLoop>& loops)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held

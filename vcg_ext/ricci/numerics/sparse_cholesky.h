@@ -99,9 +99,9 @@ private:
 	std::vector<int> m_starts, m_rows; // of the last matrix
 	Eigen::VectorXi m_position;
 	double m_flopsInOrder = 0.0; // of a factorisation when the order was chosen
-	Matrix m_ordered;          // the last matrix, its unknowns in that order
-	std::vector<int> m_entry;  // [entry of it] number among those of the last matrix
-	bool m_isAnalyzed = false; // the symbolic factor is that of the last matrix
+	Matrix m_ordered;            // the last matrix, its unknowns in that order
+	std::vector<int> m_entry;    // [entry of it] number among those of the last matrix
+	bool m_isAnalyzed = false;   // the symbolic factor is that of the last matrix
 };
 
 } // namespace ricci

@@ -105,8 +105,8 @@ struct PointOnEnd
 	enum Kind { AtVertex, OnEdge, InFace };
 
 	Kind kind = AtVertex;
-	int element = -1;           ///< number of the vertex, edge or face
-	double share = 0.0;         ///< on an edge
+	int element = -1;            ///< number of the vertex, edge or face
+	double share = 0.0;          ///< on an edge
 	FaceWeights weight{0, 0, 0}; ///< in a face
 };
 
