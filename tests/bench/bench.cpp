@@ -272,7 +272,7 @@ chooseRequest(const EmbeddedSurface& surface, const Options& options, std::strin
 double oneFactorisation(const CurvatureMap& map, const Target& target, int repeat)
 {
 	FactoredHessian hessian(target.fixed, map.scaleInvariant());
-	hessian.fill(map, 0.0);
+	hessian.fill(map);
 	double fastest = INFINITY;
 	for (int i = 0; i < repeat; ++i)
 		fastest = std::min(fastest, timeOf([&] { solveOnce(hessian.matrix()); }));

@@ -81,7 +81,7 @@ SurfaceMesh slab(int rows)
 		mesh.triangles.push_back({t[0] + below, t[2] + below, t[1] + below});
 	for (int f = 0; f < static_cast<int>(above.size()); ++f)
 		for (const Corner side : cornersOf(f))
-			if (!sides.across(side).isValid()) {
+			if (!sides.across()[side].isValid()) {
 				const int a = above[testing::at(f)][side.index()];
 				const int b = above[testing::at(f)][side.next().index()];
 				mesh.triangles.push_back({b, a, a + below});

@@ -45,7 +45,7 @@ Packed twoVertexTorus()
 Eigen::MatrixXd denseHessian(const CurvatureMap& map)
 {
 	FactoredHessian hessian(VertexArray<char>(map.triangulation().vertexCount(), 0), false);
-	hessian.fill(map, 0.0);
+	hessian.fill(map);
 	const Eigen::MatrixXd lower = hessian.matrix();
 	return lower.selfadjointView<Eigen::Lower>();
 }

@@ -90,14 +90,9 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 	return cutToDisk(base(), costs, cones());
 }
 
-OverlayPieces FlippedFlow::pieces() const
-{
-	return divideStartTriangles(domain, result);
-}
-
 SurfaceLayout FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	return layOutRefinement(domain, result, pieces(), cutGraph.isCut);
+	return layOutRefinement(domain, result, cutGraph.isCut);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

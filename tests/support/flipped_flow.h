@@ -59,7 +59,6 @@ struct FlippedFlow
 	CutGraph cut() const;
 	/// The same along random ways.
 	CutGraph cutAnywhere(Random& random) const;
-	OverlayPieces pieces() const;
 	SurfaceLayout refinement(const CutGraph& cut) const;
 
 private:

@@ -43,7 +43,7 @@ bool isHardlyLonger(const EmbeddedSurface& surface, const CutGraph& cut, const C
 	double more = 0.0;
 	for (const Edge e : surface.lengths.indices())
 		more += (cut.isCut[e] - other.isCut[e]) * surface.lengths[e];
-	const double size = std::sqrt(vertexAreas(surface.triangulation, surface.lengths).sum());
+	const double size = std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
 	return kSeamPrice * more <= kMirrorPrice * expectedEnergy(0.0) * size;
 }
 
@@ -162,23 +162,14 @@ CutGraph cutDomain(
 	return cut;
 }
 
-OverlayPieces
-flowOverlay(const FlowDomain& domain, const FlowOptions& options, const FlowResult& flow)
-{
-	if (!isRefined(options))
-		return {};
-	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return divideStartTriangles(domain, flow);
-}
-
 SurfaceLayout layOutSurface(
 	const FlowDomain& domain,
-	OverlayPieces overlay,
 	const FlowOptions& options,
 	const FlowResult& flow,
 	const EdgeArray<char>& isCut)
 {
-	return isRefined(options) ? layOutRefinement(domain, flow, std::move(overlay), isCut)
+	advance(1.0 - kAfterFlow, "Laying out the triangles");
+	return isRefined(options) ? layOutRefinement(domain, flow, isCut)
 							  : layOutCorners(domain, flow, isCut);
 }
 

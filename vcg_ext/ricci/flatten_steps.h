@@ -64,14 +64,9 @@ inline bool isRefined(const FlowOptions& options)
 	return options.output == OutputTriangulation::CommonRefinement;
 }
 
-/// The overlay of the flow for the faces of the domain's surface; nothing where its pieces are not given back.
-OverlayPieces
-flowOverlay(const FlowDomain& domain, const FlowOptions& options, const FlowResult& flow);
-
 /// The layout open along the cut, with the refinement if pieces of the overlay are given back.
 SurfaceLayout layOutSurface(
 	const FlowDomain& domain,
-	OverlayPieces overlay,
 	const FlowOptions& options,
 	const FlowResult& flow,
 	const EdgeArray<char>& isCut);

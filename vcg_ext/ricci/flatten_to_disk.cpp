@@ -37,18 +37,15 @@ double radiusOf(const PlanarLayout& layout)
 /// Lays the component out in the disk, with a longer cut if floats cannot hold the first one.
 SurfaceLayout layOut(
 	const FlowDomain& domain,
-	OverlayPieces overlay,
 	const HyperbolicOptions& options,
 	const FlowResult& flow,
 	CutGraph& cut)
 {
-	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
-	SurfaceLayout layout = layOutSurface(domain, std::move(overlay), options, flow, cut.isCut);
+	SurfaceLayout layout = layOutSurface(domain, options, flow, cut.isCut);
 	if (const double radius = radiusOf(layout.corners); radius > kMaxTileDistance) {
 		cut = cutAroundCentre(t, cutCost(domain, flow, options.method), std::move(cut.cones));
-		layout =
-			layOutSurface(domain, flowOverlay(domain, options, flow), options, flow, cut.isCut);
+		layout = layOutSurface(domain, options, flow, cut.isCut);
 		logLine(
 			"The short seams reach " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer seams around the centre reach " +
@@ -76,27 +73,19 @@ Parametrization flattenToDisk(
 	const FlowResult flow = runFlow(domain.solved(), std::move(start), target, options, log); // 4.2
 	logFlow(flow, options);
 
-	const int threads = threadsFor(domain.surface.triangulation.faceCount());
-	OverlayPieces overlay;
-	CutGraph cut;
-	besides(
-		threads,
-		[&] { overlay = flowOverlay(domain, options, flow); },
-		[&] { // 4.3
-			cut = cutDomain(
-				domain,
-				cutCost(domain, flow, options.method),
-				conesOf(domain.surface, flow.target));
-		});
+	CutGraph cut = cutDomain( // 4.3
+		domain,
+		cutCost(domain, flow, options.method),
+		conesOf(domain.surface, flow.target));
 	SurfaceLayout layout;
 	double relationError = 0.0;
 	FuchsianGroup group;
 	InvariantReport invariants;
 	besides(
-		threads,
+		threadsFor(domain.surface.triangulation.faceCount()),
 		[&] {
 			const Triangulation& t = domain.surface.triangulation;
-			layout = layOut(domain, std::move(overlay), options, flow, cut); // 4.3
+			layout = layOut(domain, options, flow, cut);
 			relationError = closingError(t, cut, layout, flow.target);
 			advance(1.0 - kAfterFlow, "Canonical generators");
 			group = fuchsianGroup(t, cut, layout.pairing, options.canonicalGenerators);

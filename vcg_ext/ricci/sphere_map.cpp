@@ -38,42 +38,6 @@ Vector vec(const Point3& p)
 	return {p[0], p[1], p[2]};
 }
 
-/// Finds the distance of the vertex nearest to \p v, or \p radius if none is nearer: found(v, radius). The vertices are
-/// sorted by the coordinate in which they reach farthest, in which few lie near any of them.
-/// \param positions must outlive the result
-auto nearestVertex(const VertexArray<Point3>& positions)
-{
-	std::size_t axis = 0;
-	double widest = -1.0;
-	for (std::size_t k = 0; k < 3; ++k) {
-		const auto [low, high] = std::minmax_element(
-			positions.begin(), positions.end(), [k](const Point3& a, const Point3& b) {
-				return a[k] < b[k];
-			});
-		if ((*high)[k] - (*low)[k] > widest) {
-			widest = (*high)[k] - (*low)[k];
-			axis = k;
-		}
-	}
-	std::vector<Vertex> order;
-	for (const Vertex v : positions.indices())
-		order.push_back(v);
-	std::stable_sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
-		return positions[a][axis] < positions[b][axis];
-	});
-	return [&positions, axis, order = std::move(order)](Vertex v, double radius) {
-		const Point3& centre = positions[v];
-		auto other = std::lower_bound(
-			order.begin(), order.end(), centre[axis] - radius, [&](Vertex w, double low) {
-				return positions[w][axis] < low;
-			});
-		for (; other != order.end() && positions[*other][axis] <= centre[axis] + radius; ++other)
-			if (*other != v)
-				radius = std::min(radius, distance(positions[*other], centre));
-		return radius;
-	};
-}
-
 /// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
 /// in space; where there is none, the one that others come least near.
 Vertex choosePole(const Component& c)
@@ -102,13 +66,18 @@ Vertex choosePole(const Component& c)
 	std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
 		return minAngle[a] != minAngle[b] ? minAngle[a] > minAngle[b] : a < b;
 	});
-	const auto distanceToNearest = nearestVertex(c.positions);
+	const PointsOnLine points(c.positions.values());
 	Vertex best;
 	double mostAlone = 0.0;
 	for (const Vertex pole : order) {
 		checkpoint();
 		const double reach = kNearest * nearest[pole];
-		const double alone = reach > 0.0 ? distanceToNearest(pole, reach) / nearest[pole] : 0.0;
+		double least = reach;
+		points.visitNear(c.positions[pole], reach, [&](int v, double d) {
+			if (v != pole.number())
+				least = std::min(least, d);
+		});
+		const double alone = reach > 0.0 ? least / nearest[pole] : 0.0;
 		if (alone > mostAlone) {
 			mostAlone = alone;
 			best = pole;
@@ -146,13 +115,6 @@ SurfaceMesh punctured(const Component& c, Vertex pole)
 		disk.positions.push_back({y[0], y[1], y[2]});
 	}
 	return disk;
-}
-
-double median(std::vector<double> values)
-{
-	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-	std::nth_element(values.begin(), middle, values.end());
-	return *middle;
 }
 
 /// Inverse stereographic projection with half of the vertices on either side of the equator. The plane is seen

@@ -4,6 +4,7 @@
 #ifndef RICCI_INDEXED_H
 #define RICCI_INDEXED_H
 
+#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
 #include <type_traits>
@@ -183,6 +184,14 @@ public:
 private:
 	std::vector<T> m_values;
 };
+
+/// Brings items into their order, each once.
+template<class T>
+void sortUnique(std::vector<T>& items)
+{
+	std::sort(items.begin(), items.end());
+	items.erase(std::unique(items.begin(), items.end()), items.end());
+}
 
 /// A std::vector of elements numbered by int (-1: none).
 template<class T>

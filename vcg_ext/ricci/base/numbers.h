@@ -2,11 +2,13 @@
 #ifndef RICCI_NUMBERS_H
 #define RICCI_NUMBERS_H
 
+#include <algorithm>
 #include <cfenv>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace ricci {
 
@@ -32,6 +34,14 @@ numberText(double x, int digits, std::chars_format format = std::chars_format::g
 inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
 {
 	return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// The upper one of two.
+inline double median(std::vector<double> values)
+{
+	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+	std::nth_element(values.begin(), middle, values.end());
+	return *middle;
 }
 
 /// The default floating-point environment while it lives, and the caller's own afterwards. The

@@ -57,6 +57,13 @@ double ofSides(const std::array<double, 3>& l, Area area)
 
 } // namespace
 
+PointsOnLine::PointsOnLine(const std::vector<Point3>& points) : m_points(points)
+{
+	for (std::size_t i = 0; i < points.size(); ++i)
+		m_line.emplace_back(along(points[i]), static_cast<int>(i));
+	std::sort(m_line.begin(), m_line.end());
+}
+
 double euclideanArea(const std::array<double, 3>& sides)
 {
 	return ofSides(

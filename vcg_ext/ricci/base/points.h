@@ -2,12 +2,15 @@
 #ifndef RICCI_POINTS_H
 #define RICCI_POINTS_H
 
+#include "indexed.h"
 #include "numbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -91,25 +94,43 @@ inline double distance(const Point2& a, const Point2& b)
 	return length(a - b);
 }
 
-/// The root of x^2 + y^2 + z^2. std::hypot of three underflows in some libraries.
-inline double hypotOfThree(double x, double y, double z)
-{
-	const double size = std::max({std::abs(x), std::abs(y), std::abs(z)});
-	if (size == 0.0)
-		return 0.0;
-	return size *
-		   std::sqrt((x / size) * (x / size) + (y / size) * (y / size) + (z / size) * (z / size));
-}
-
+/// Of three, std::hypot underflows in some libraries.
 inline double length(const Point3& a)
 {
-	return hypotOfThree(a[0], a[1], a[2]);
+	const double size = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+	const Point3 unit = a / (size > 0.0 ? size : 1.0);
+	return size * std::sqrt(dot(unit, unit));
 }
 
 inline double distance(const Point3& a, const Point3& b)
 {
 	return length(a - b);
 }
+
+/// Points sorted along a line that is parallel to nothing in particular, where few lie near any of them.
+class PointsOnLine
+{
+public:
+	/// \param points must outlive the object
+	explicit PointsOnLine(const std::vector<Point3>& points);
+
+	/// Calls \p visit(number of a point, its distance) for those within \p radius of a place, and for some others.
+	template<class Visit>
+	void visitNear(const Point3& place, double radius, const Visit& visit) const
+	{
+		const double at = along(place), reach = 2.0 * radius; // with room for rounding
+		for (auto i = std::lower_bound(m_line.begin(), m_line.end(), std::pair(at - reach, 0));
+			 i != m_line.end() && i->first <= at + reach;
+			 ++i)
+			visit(i->second, distance(m_points[positionOf(i->second)], place));
+	}
+
+private:
+	static double along(const Point3& p) { return dot({0.5773, 0.2113, 0.7887}, p); }
+
+	const std::vector<Point3>& m_points;
+	std::vector<std::pair<double, int>> m_line;
+};
 
 /// Area of a flat triangle with these sides, by Heron's formula in the order of operations of [Kahan
 /// 2014]; 0 where they break the triangle inequality.

@@ -99,15 +99,10 @@ public:
 	LinearSystem system(VertexArray<Vertex>& vertices) const;
 
 private:
-	void computeAreas(const CurvatureMap& map);
 	void layOut(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
-	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
-	std::shared_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
-	bool m_isFactored = false;                  // L
-	VertexArray<int> m_row;                     // of the unknown, or -1
-	int m_unknowns = 0;
+	std::shared_ptr<FactoredHessian> m_hessian; // L
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0

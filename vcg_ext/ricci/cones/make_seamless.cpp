@@ -79,7 +79,11 @@ public:
 			m_surface(surface),
 			m_holonomy(holonomy), m_sites(surface, request.coneVertices()),
 			m_keepsCount(request.goal.kind == ConeGoal::Count),
-			m_linear(surface, flow, request.boundary(), areaShares(surface)),
+			m_linear(
+				surface,
+				flow,
+				request.boundary(),
+				areaShares(surface.triangulation, surface.lengths)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature),
 			m_errors(holonomy.errors), m_root(holonomy.cost.llt().matrixU()),
 			m_area(euclideanArea(surface.triangulation, surface.lengths))
@@ -122,12 +126,6 @@ public:
 	}
 
 private:
-	static VertexVector areaShares(const EmbeddedSurface& surface)
-	{
-		const VertexVector areas = vertexAreas(surface.triangulation, surface.lengths);
-		return areas / areas.sum();
-	}
-
 	/// The scale factor that the linear problem has for the present cones.
 	void measure()
 	{

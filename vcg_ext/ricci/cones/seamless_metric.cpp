@@ -303,7 +303,8 @@ Derivatives derivatives(const FlowResult& flow, const Metric& metric)
 	const CurvatureMap& map = *metric.map;
 	const Triangulation& t = map.triangulation();
 	FactoredHessian hessian(flow.target.fixed, true);
-	hessian.factorize(map);
+	hessian.fill(map);
+	hessian.factorize();
 	Derivatives by;
 	setWeights(metric, flow.u - flowFactor(flow), by);
 	for (const FaceLoop& loop : metric.loops) {

@@ -19,9 +19,6 @@ namespace ricci {
 
 namespace {
 
-/// By so much less, energy and price of seams are not worth another flow.
-constexpr double kWorthAFlow = 0.03;
-
 std::string number(double x)
 {
 	return numberText(x, 9);
@@ -385,22 +382,17 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 bool keepsAreas(
 	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
-	const std::optional<MapCost>& expected = flow.target.expected;
-	const bool goesBySpread = request.goal.kind == ConeGoal::Spread;
-	return !expected || areaCost(surface, flow, request) <=
-							(goesBySpread ? 1.0 : expected->total() + kWorthAFlow);
+	return request.goal.kind != ConeGoal::Spread || !flow.target.expected ||
+		   excessOfAreas(surface, flow, request) <= 1.0;
 }
 
 double
-areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
+excessOfAreas(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
-	const AreaChange change = areaChange(surface, flowFactor(flow));
-	return request.goal.kind == ConeGoal::Spread
-			   ? areaExcess(change, request.goal.spread, kSpreadSlack)
-			   : MapCost{change.energy, flow.target.expected->seams}.total();
+	return areaExcess(areaChange(surface, flowFactor(flow)), request.goal.spread, kSpreadSlack);
 }
 
-std::optional<Target> targetToKeepAreas(
+Target targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	InitialPacking& start,
 	const FlowResult& flow,
@@ -409,9 +401,6 @@ std::optional<Target> targetToKeepAreas(
 	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
 	const PlacedCones cones = wasFlat && request.freeBoundary ? placeCones(surface, start, request)
 															  : moreCones(surface, flow, request);
-	if (request.goal.kind == ConeGoal::LeastCost &&
-		cones.expectation().total() > areaCost(surface, flow, request) - kWorthAFlow)
-		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = targetWithCones(surface, cones, request);
 	target.choice = flow.target.choice;

@@ -86,7 +86,8 @@ private:
 /// first tree consists of shortest paths to the nearest terminal, joined by edges of which those that belong to
 /// the shortest connections of two terminals come first. Without its dead ends it is at most twice as long as
 /// the shortest tree through the terminals [Mehlhorn 1988].
-EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal)
+EdgeArray<char>
+treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal, Vertex root)
 {
 	const Triangulation& t = graph.surface();
 	std::vector<Vertex> roots;
@@ -94,7 +95,7 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 		if (terminal[n])
 			roots.push_back(n);
 	if (roots.empty())
-		roots.push_back(t.origin(t.halfedge(Face(0))));
+		roots.push_back(root.isValid() ? root : t.origin(t.halfedge(Face(0))));
 	const NodePaths paths = graph.pathsFrom(roots);
 	EdgeArray<char> isCut(t.edgeCount(), 0);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
@@ -203,11 +204,12 @@ cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, Vertex
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }
 
-CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
+CutGraph cutToDisk(
+	const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones, Vertex root)
 {
 	const ContractedGraph graph(t, cost);
 	const VertexArray<char> terminal = graph.terminals(cones);
-	EdgeArray<char> isCut = treeAndLoops(graph, terminal);
+	EdgeArray<char> isCut = treeAndLoops(graph, terminal, root);
 	prune(graph, terminal, isCut);
 	shortenCut(t, cost, cones, isCut);
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
@@ -304,14 +306,14 @@ VertexArray<double> exposure(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<Point3>& positions)
 {
 	VertexArray<double> result(t.vertexCount(), 0.5);
-	VertexVector mass = vertexAreas(t, lengths);
-	const double area = mass.sum();
+	const double area = euclideanArea(t, lengths);
 	if (!(area > 0.0))
 		return result;
-	mass.array() += kTiny * area / static_cast<double>(t.vertexCount());
+	VertexVector mass = areaShares(t, lengths);
+	mass.array() += kTiny / static_cast<double>(t.vertexCount());
 	EdgeArray<double> weights = cotangentWeights(t, lengths, kMaxCotangent);
 	for (double& w : weights)
-		w = kSmoothing * area * std::max(w, kMinCotangentWeight);
+		w = kSmoothing * std::max(w, kMinCotangentWeight);
 	Eigen::MatrixX3d place(t.vertexCount(), 3), normal = Eigen::MatrixX3d::Zero(t.vertexCount(), 3);
 	for (const Vertex v : t.vertices())
 		place.row(v.number()) = Eigen::RowVector3d::Map(positions[v].data());
@@ -333,7 +335,7 @@ VertexArray<double> exposure(
 			height[v] = (place.row(v.number()) - smooth.row(v.number())).dot(n) / length;
 		square += mass[v] * height[v] * height[v];
 	}
-	const double typical = std::sqrt(square / area);
+	const double typical = std::sqrt(square);
 	// A sphere stands out everywhere alike; a plane not at all except for rounding.
 	if (typical > kTiny * std::sqrt(area))
 		for (const Vertex v : t.vertices())

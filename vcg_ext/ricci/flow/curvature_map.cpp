@@ -274,7 +274,6 @@ void FactoredHessian::layOut(const CurvatureMap& map)
 {
 	const Triangulation& t = map.triangulation();
 	m_offDiagonal.assign(t.edgeCount(), -1);
-	m_diagonal.resize(m_unknowns);
 
 	// Of each column the rows and their edges: no edge on the diagonal.
 	using Entry = std::pair<int, Edge>;
@@ -301,25 +300,24 @@ void FactoredHessian::layOut(const CurvatureMap& map)
 		for (const auto& [r, e] : column) {
 			if (r != last)
 				inner[slot++] = last = r;
-			(e.isValid() ? m_offDiagonal[e] : m_diagonal[c]) = slot - 1;
+			if (e.isValid())
+				m_offDiagonal[e] = slot - 1;
 		}
 	}
 	outer[m_unknowns] = slot;
 	m_matrix.resizeNonZeros(slot);
 }
 
-void FactoredHessian::fill(const CurvatureMap& map, double shift)
+void FactoredHessian::fill(const CurvatureMap& map)
 {
 	if (m_revision != map.revision()) {
 		layOut(map);
 		m_revision = map.revision();
 	}
 	m_hasBroken = map.brokenTriangles() > 0;
-	m_shift = shift;
 	double* value = m_matrix.valuePtr();
 	std::fill(value, value + m_matrix.nonZeros(), 0.0);
-	for (const int slot : m_diagonal)
-		value[slot] = shift;
+	const int* diagonal = m_matrix.outerIndexPtr(); // slots: the first of each column
 	for (const Edge e : m_offDiagonal.indices()) {
 		const double w = map.weights()[e];
 		const double C = map.cosineLess1(e);
@@ -328,54 +326,40 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 		if (a >= 0 && a == b) {
 			// A loop, or an edge between mirror images, has circles of one size at both ends: 2 w
 			// cosh(l) - 2 w.
-			value[m_diagonal[a]] += 2.0 * w * C;
+			value[diagonal[a]] += 2.0 * w * C;
 			continue;
 		}
 		if (a >= 0)
-			value[m_diagonal[a]] += w * (1.0 + C);
+			value[diagonal[a]] += w * (1.0 + C);
 		if (b >= 0)
-			value[m_diagonal[b]] += w * (1.0 + C);
+			value[diagonal[b]] += w * (1.0 + C);
 		if (m_offDiagonal[e] >= 0)
 			value[m_offDiagonal[e]] -= w;
 	}
 }
 
-double FactoredHessian::largestDiagonal() const
+void FactoredHessian::factorize()
 {
-	double largest = 0.0;
-	for (const int slot : m_diagonal)
-		largest = std::max(largest, m_matrix.valuePtr()[slot]);
-	return largest;
-}
-
-void FactoredHessian::shiftBy(double more)
-{
-	for (const int slot : m_diagonal)
-		m_matrix.valuePtr()[slot] += more;
-	m_shift += more;
-}
-
-bool FactoredHessian::factorize(const CurvatureMap& map)
-{
-	fill(map, map.brokenTriangles() > 0 ? kRegularisation : 0.0);
-	return factorize();
-}
-
-bool FactoredHessian::factorize()
-{
-	if (m_hasBroken && m_shift == 0.0)
-		shiftBy(kRegularisation);
+	double shift = 0.0;
+	const auto shiftTo = [&](double more) {
+		for (int c = 0; c < m_unknowns; ++c)
+			m_matrix.valuePtr()[m_matrix.outerIndexPtr()[c]] += more - shift;
+		shift = more;
+	};
+	if (m_hasBroken)
+		shiftTo(kRegularisation);
 	m_isFactored = false;
-	const double scale = std::max(largestDiagonal(), 1.0);
+	double scale = 1.0;
+	for (int c = 0; c < m_unknowns; ++c)
+		scale = std::max(scale, m_matrix.valuePtr()[m_matrix.outerIndexPtr()[c]]);
 	while (!m_cholesky.factorize(m_matrix)) {
-		const double shift = std::max(kShiftGrowth * m_shift, kManyRoundings * scale);
-		if (!(shift <= scale) || std::isinf(shift))
+		const double next = std::max(kShiftGrowth * shift, kManyRoundings * scale);
+		if (!(next <= scale) || std::isinf(next))
 			throw SolverFailed(SolverFailed::Flow);
-		shiftBy(shift - m_shift);
+		shiftTo(next);
 	}
 	m_isFactored = true;
-	m_isShifted = m_shift > 0.0;
-	return !m_isShifted;
+	m_isShifted = shift > 0.0;
 }
 
 Eigen::VectorXd FactoredHessian::gather(const VertexVector& values) const

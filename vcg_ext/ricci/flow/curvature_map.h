@@ -168,18 +168,17 @@ public:
 	SparseCholesky& cholesky() { return m_cholesky; }
 	const SparseCholesky& cholesky() const { return m_cholesky; }
 
-	/// Fills the matrix at the state of \p map with \p shift on its diagonal, for a new pattern
-	/// where the connectivity has another revision than at the last call. The factor stays.
-	void fill(const CurvatureMap& map, double shift);
+	/// Fills the matrix at the state of \p map, for a new pattern where the connectivity has another
+	/// revision than at the last call. The factor stays.
+	void fill(const CurvatureMap& map);
+
+	/// Takes another matrix of these unknowns.
+	void fill(const Matrix& lower) { m_matrix = lower; }
 
 	/// Factorises the matrix as it is filled. Where it is not positive definite, and where triangles
 	/// were broken (their derivatives are 0), a shift is added to the diagonal.
-	/// \return whether the factor is that of the matrix without a shift
 	/// \throw SolverFailed where no shift makes it positive definite
-	bool factorize();
-
-	/// The same at the state of \p map.
-	bool factorize(const CurvatureMap& map);
+	void factorize();
 
 	bool isFactored() const { return m_isFactored; }
 
@@ -192,18 +191,14 @@ public:
 
 private:
 	void layOut(const CurvatureMap& map);
-	double largestDiagonal() const;
-	void shiftBy(double more);
 
 	VertexArray<int> m_row;
 	int m_unknowns = 0;
 	int m_revision = -1;      // of the map, when the pattern was laid out
 	bool m_hasBroken = false; // triangles, as it is filled
-	double m_shift = 0.0;     // on the diagonal
 	bool m_isFactored = false;
 	bool m_isShifted = false;
 	Matrix m_matrix;
-	Array<int> m_diagonal;        // [row] slot in the value array
 	EdgeArray<int> m_offDiagonal; // slot, or -1
 	SparseCholesky m_cholesky;
 };

@@ -8,36 +8,26 @@
 #include "../mesh/normal_coordinates.h"
 #include "../metric/area.h"
 #include "../numerics/iteration.h"
+#include "../numerics/moebius_balancing.h"
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <numeric>
 #include <string>
 
 namespace ricci {
 
 namespace {
 
-using Complex = std::complex<double>;
-
-/// Bisections of the radius of an inscribed polygon, of which about 55 halve an interval until it is empty; steps of
-/// Newton's method for the conformal barycentre, which needs about ten; and fixed-point iterations of the circle, each
-/// of which halves the error about without mixing.
-constexpr int kMaxBisections = 200, kMaxCentringSteps = 100, kMaxCircleSteps = 100;
-
-/// A step of that method that moves the centre further than this is too far.
-constexpr double kMaxCentringStep = 0.5;
+/// Bisections of the radius of an inscribed polygon, of which about 55 halve an interval until it is empty; and
+/// fixed-point iterations of the circle, each of which halves the error about without mixing.
+constexpr int kMaxBisections = 200, kMaxCircleSteps = 100;
 
 /// Images that Anderson mixing combines.
 constexpr std::size_t kMixingDepth = 10;
 
 /// The inner solves are this much more exact than the last change of the target.
 constexpr double kInnerAccuracy = 1e-2;
-
-double arcOf(double side, double radius)
-{
-	return 2.0 * std::asin(std::min(1.0, side / (2.0 * radius)));
-}
 
 /// Largest difference of the points on the circle that two sequences of arcs describe.
 double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
@@ -51,52 +41,37 @@ double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 	return max - min;
 }
 
+/// Makes arcs add up to a turn.
+void closeTurn(std::vector<double>& arcs)
+{
+	const double sum = std::accumulate(arcs.begin(), arcs.end(), 0.0);
+	for (double& arc : arcs)
+		arc *= 2 * kPi / sum;
+}
+
 /// Arcs after the Moebius transformation of the disk that brings the conformal barycentre of the
 /// corners, weighted by \p weights, to the centre [Douady Earle 1986]. It exists and is unique up
 /// to rotation while no weight is half of the sum or more; otherwise \p arcs is returned.
-std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vector<double>& weights)
+std::vector<double> centredArcs(std::vector<double> arcs, const std::vector<double>& weights)
 {
-	const std::size_t n = arcs.size();
-	std::vector<Complex> z(n);
+	std::vector<Point3> corners; // on the equator, which stays in its plane
 	double angle = 0.0, total = 0.0;
-	for (std::size_t i = 0; i < n; ++i) {
-		z[i] = std::polar(1.0, angle);
+	for (std::size_t i = 0; i < arcs.size(); ++i) {
+		corners.push_back({std::cos(angle), std::sin(angle), 0.0});
 		angle += arcs[i];
 		total += weights[i];
 	}
 	if (*std::max_element(weights.begin(), weights.end()) >= 0.5 * total)
 		return arcs;
-	// Newton's method on the barycentre b of the present points: moving w to the centre changes b
-	// by -w + conj(w) mean(z^2) to first order.
-	for (int iteration = 0; iteration < kMaxCentringSteps; ++iteration) {
-		Complex b = 0.0, square = 0.0;
-		for (std::size_t i = 0; i < n; ++i) {
-			b += weights[i] * z[i];
-			square += weights[i] * z[i] * z[i];
-		}
-		b /= total, square /= total;
-		if (std::abs(b) < kFewRoundings)
-			break;
-		Complex w = (b + square * std::conj(b)) / (1.0 - std::norm(square));
-		const double size = std::abs(w);
-		if (!(size < kMaxCentringStep)) // half the way to the barycentre instead
-			w = b / std::abs(b) * 0.5 * std::abs(b);
-		for (Complex& p : z) {
-			p = (p - w) / (1.0 - std::conj(w) * p);
-			p /= std::abs(p);
-		}
+	balanceByMoebius(corners, weights);
+	for (std::size_t i = 0; i < arcs.size(); ++i) {
+		const Point3 &p = corners[i], &q = corners[(i + 1) % arcs.size()];
+		arcs[i] = std::atan2(cross(p, q)[2], dot(p, q));
+		if (arcs[i] < 0.0)
+			arcs[i] += 2 * kPi;
 	}
-	std::vector<double> centred(n);
-	double sum = 0.0;
-	for (std::size_t i = 0; i < n; ++i) {
-		double arc = std::arg(z[(i + 1) % n] * std::conj(z[i]));
-		if (arc < 0.0)
-			arc += 2 * kPi;
-		sum += centred[i] = arc;
-	}
-	for (double& arc : centred)
-		arc *= 2 * kPi / sum;
-	return centred;
+	closeTurn(arcs);
+	return arcs;
 }
 
 /// Residual of a double, in radians, beyond which symmetric steps do not do: rounding has made its
@@ -127,23 +102,29 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 
 std::vector<double> inscribedArcs(const std::vector<double>& sides)
 {
-	const auto longestSide = std::max_element(sides.begin(), sides.end());
-	const double longest = *longestSide;
+	const auto longest = std::max_element(sides.begin(), sides.end()) - sides.begin();
+	const double diameter = sides[static_cast<std::size_t>(longest)]; // the least
+	const auto arcsAt = [&](double radius, bool outside) {
+		std::vector<double> arcs;
+		arcs.reserve(sides.size());
+		for (const double side : sides)
+			arcs.push_back(2.0 * std::asin(std::min(1.0, side / (2.0 * radius))));
+		double& ofLongest = arcs[static_cast<std::size_t>(longest)];
+		ofLongest = outside ? 2 * kPi - ofLongest : ofLongest;
+		return arcs;
+	};
 	// Sum of the arcs less 2 pi as a function of the radius: decreasing while the centre is inside.
 	// If it is negative already where the longest side is a diameter, the centre lies beyond that
 	// side, whose arc then is the larger of the two.
 	const auto excess = [&](double radius, bool outside) {
-		double sum = 0.0;
-		for (auto side = sides.begin(); side != sides.end(); ++side)
-			sum += outside && side == longestSide ? 2 * kPi - arcOf(*side, radius)
-												  : arcOf(*side, radius);
-		return sum - 2 * kPi;
+		const std::vector<double> arcs = arcsAt(radius, outside);
+		return std::accumulate(arcs.begin(), arcs.end(), 0.0) - 2 * kPi;
 	};
-	const bool outside = excess(0.5 * longest, false) < 0.0;
+	const bool outside = excess(0.5 * diameter, false) < 0.0;
 	const auto isTooLarge = [&](double radius) {
 		return outside ? excess(radius, true) > 0.0 : excess(radius, false) < 0.0;
 	};
-	double min = 0.5 * longest, max = longest;
+	double min = 0.5 * diameter, max = diameter;
 	while (!isTooLarge(max) && std::isfinite(max))
 		max *= 2.0;
 	for (int i = 0; i < kMaxBisections; ++i) {
@@ -153,16 +134,8 @@ std::vector<double> inscribedArcs(const std::vector<double>& sides)
 			break;
 		bound = middle;
 	}
-	const double radius = 0.5 * (min + max);
-	std::vector<double> arcs;
-	double sum = 0.0;
-	for (auto side = sides.begin(); side != sides.end(); ++side) {
-		const double arc = arcOf(*side, radius);
-		arcs.push_back(outside && side == longestSide ? 2 * kPi - arc : arc);
-		sum += arcs.back();
-	}
-	for (double& arc : arcs)
-		arc *= 2 * kPi / sum;
+	std::vector<double> arcs = arcsAt(0.5 * (min + max), outside);
+	closeTurn(arcs);
 	return arcs;
 }
 

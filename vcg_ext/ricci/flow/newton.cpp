@@ -212,7 +212,7 @@ bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 	const double left = std::max(run.result.residual, 0.5 * run.result.floor / run.result.residual);
 	const double accuracy = std::min(left, kMaxInaccuracy);
 	const bool keepsFactor = verdict == Verdict::Polish && m_hessian->isFactored();
-	m_hessian->fill(*m_map, 0.0);
+	m_hessian->fill(*m_map);
 	SparseCholesky& cholesky = m_hessian->cholesky();
 	const Eigen::VectorXd rhs = -m_hessian->gather(m_gradient);
 	Eigen::VectorXd solution;
@@ -231,7 +231,7 @@ bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !keepsFactor) {
-		m_hessian->factorize(*m_map);
+		m_hessian->factorize();
 		m_worn = false;
 		solution = cholesky.solve(rhs);
 	}

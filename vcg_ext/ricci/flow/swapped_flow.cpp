@@ -139,8 +139,7 @@ public:
 	/// Splits boundary edges of \p t, the triangulation of triangles(): at most one of each triangle.
 	void split(const Triangulation& t, std::vector<Edge> edges)
 	{
-		std::sort(edges.begin(), edges.end());
-		edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+		sortUnique(edges);
 		FaceArray<char> touched(t.faceCount(), 0);
 		for (const Edge e : edges) {
 			const Halfedge h = t.isExterior(e.halfedge()) ? e.halfedge().twin() : e.halfedge();

@@ -245,10 +245,7 @@ void scaleToSurface(FlatMesh& mesh)
 
 void connect(FlatMesh& mesh)
 {
-	const Sides sides(mesh.vertices.values());
-	mesh.across.resize(3 * mesh.vertices.size());
-	for (const Corner side : mesh.across.indices())
-		mesh.across[side] = sides.across(side);
+	mesh.across = Sides(mesh.vertices.values()).across();
 }
 
 CornerArray<char> sidesOf(const SideMarks& marks)

@@ -88,42 +88,17 @@ std::vector<Plane> planesToTry(const VertexArray<Point3>& positions, double nois
 	return planes;
 }
 
-/// Along a line that is parallel to nothing in particular.
-double along(const Point3& p)
-{
-	return dot({0.5773, 0.2113, 0.7887}, p);
-}
-
-/// Vertices in the order along() the line: few are as near to each other there as the noise.
-using Line = std::vector<std::pair<double, Vertex>>;
-
-Line lineOf(const VertexArray<Point3>& positions)
-{
-	Line line;
-	line.reserve(positionOf(positions.size()));
-	for (const Vertex v : positions.indices())
-		line.push_back({along(positions[v]), v});
-	std::sort(line.begin(), line.end());
-	return line;
-}
-
 /// The vertex nearest to a place, the first of several; none if it is farther away than the noise.
-/// \param line lineOf() the vertices
-Vertex
-nearestTo(const Point3& place, const VertexArray<Point3>& positions, double noise, const Line& line)
+Vertex nearestTo(const Point3& place, double noise, const PointsOnLine& points)
 {
 	Vertex nearest;
 	double least = noise;
-	const double at = along(place), reach = 2.0 * noise; // with room for rounding
-	for (auto i = std::lower_bound(line.begin(), line.end(), std::pair(at - reach, Vertex()));
-		 i != line.end() && i->first <= at + reach;
-		 ++i) {
-		const double d = distance(positions[i->second], place);
-		if (d < least || (d == least && nearest.isValid() && i->second < nearest)) {
+	points.visitNear(place, noise, [&](int i, double d) {
+		if (d < least || (d == least && nearest.isValid() && Vertex(i) < nearest)) {
 			least = d;
-			nearest = i->second;
+			nearest = Vertex(i);
 		}
-	}
+	});
 	return nearest;
 }
 
@@ -138,12 +113,11 @@ VertexArray<Vertex> imagesAcross(
 	const EmbeddedSurface& surface,
 	const VertexArray<char>& onHole,
 	double noise,
-	const Line& line)
+	const PointsOnLine& points)
 {
 	const VertexArray<char>& boundary = surface.topology.boundary;
 	const auto nearest = [&](Vertex v) {
-		const Vertex w =
-			nearestTo(plane.mirrored(surface.positions[v]), surface.positions, noise, line);
+		const Vertex w = nearestTo(plane.mirrored(surface.positions[v]), noise, points);
 		const bool isLike =
 			w.isValid() && boundary[w] == boundary[v] && (onHole.empty() || onHole[w] == onHole[v]);
 		return isLike ? w : Vertex();
@@ -253,17 +227,14 @@ void mirrorEdges(const Triangulation& t, MirrorSymmetry& mirror)
 std::shared_ptr<const MirrorSymmetry>
 findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 {
-	std::vector<double> lengths = surface.lengths.values();
-	const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-	std::nth_element(lengths.begin(), median, lengths.end());
-	const double noise = kMirrorNoise * *median;
-	const Line line = lineOf(surface.positions);
+	const double noise = kMirrorNoise * median(surface.lengths.values());
+	const PointsOnLine points(surface.positions.values());
 	std::shared_ptr<MirrorSymmetry> best;
 	double least = kInfinity;
 	int found = 0;
 	for (const Plane& plane : planesToTry(surface.positions, noise)) {
 		auto mirror = std::make_shared<MirrorSymmetry>();
-		mirror->image = imagesAcross(plane, surface, onHole, noise, line);
+		mirror->image = imagesAcross(plane, surface, onHole, noise, points);
 		if (mirror->image.empty() || !divides(plane, surface, *mirror))
 			continue;
 		double inPlane = 0.0;

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace ricci {
@@ -193,10 +192,14 @@ public:
 	OpenedMesh result()
 	{
 		if (!m_across.empty()) {
-			countSplitWithoutSeams();
+			CornerArray<Corner> glued = m_glued; // as it would be without seams
 			for (const Corner side : m_across.indices())
-				if (m_across[side].isValid())
+				if (m_across[side].isValid()) {
+					glued[side] = m_across[side];
 					m_opened.border[positionOf(side.face())][side.index()] = OpenedMesh::OnSeam;
+				}
+			DisjointSetsOf<Corner> fans = fansOf(glued);
+			countSplit(fans);
 		}
 		m_opened.mesh.positions = places();
 		m_opened.mesh.triangles = std::move(m_corners.values());
@@ -284,43 +287,29 @@ private:
 		m_opened.vertex.resize(m_input.positions.size());
 		std::iota(m_opened.vertex.begin(), m_opened.vertex.end(), 0);
 		CornerArray<int> copy(m_glued.size(), -1); // [fan]
-		Array<char> uses(m_vertexCount, 0);        // fans of each vertex: none, one, more
+		Array<char> isUsed(m_vertexCount, 0);
 		for (const Corner corner : m_glued.indices()) {
 			const int v = m_triangles[corner];
 			int& own = copy[fans.find(corner)];
-			if (own < 0 && uses[v] == 0) {
+			if (own < 0 && !std::exchange(isUsed[v], 1))
 				own = v;
-				uses[v] = 1;
-			}
 			else if (own < 0) {
 				own = static_cast<int>(m_opened.vertex.size());
 				m_opened.vertex.push_back(v);
-				uses[v] = 2;
 			}
 			m_corners[corner] = own;
 		}
-		m_opened.splitVertices = static_cast<int>(std::count(uses.begin(), uses.end(), 2));
+		countSplit(fans);
 	}
 
-	/// The vertices that would have copies if the seams were glued.
-	void countSplitWithoutSeams()
+	/// The vertices with several fans.
+	void countSplit(DisjointSetsOf<Corner>& fans)
 	{
-		CornerArray<Corner> glued = m_glued;
-		for (const Corner s : glued.indices())
-			if (m_across[s].isValid())
-				glued[s] = m_across[s];
-		DisjointSetsOf<Corner> fans = fansOf(glued);
-		Array<Corner> fanAt(m_vertexCount); // [vertex] the first that is met
-		std::set<int> split;
-		for (const Corner corner : glued.indices()) {
-			const int v = m_triangles[corner];
-			const Corner fan = fans.find(corner);
-			if (!fanAt[v].isValid())
-				fanAt[v] = fan;
-			if (fanAt[v] != fan)
-				split.insert(v);
-		}
-		m_opened.splitVertices = static_cast<int>(split.size());
+		Array<int> count(m_vertexCount, 0);
+		for (const Corner corner : m_glued.indices())
+			count[m_triangles[corner]] += fans.find(corner) == corner;
+		m_opened.splitVertices = static_cast<int>(
+			std::count_if(count.begin(), count.end(), [](int fansHere) { return fansHere > 1; }));
 	}
 
 	/// Finds the sides of boundary loops other than the longest of each component.

@@ -27,8 +27,8 @@ public:
 				m_sides.data() + m_first[i], m_sides.data() + m_first[i + 1]));
 	}
 
-	/// The other side of an edge that has two, which run in opposite directions; else none.
-	Corner across(Corner side) const { return m_across[side]; }
+	/// [side] The other side of an edge that has two, which run in opposite directions; else none.
+	const CornerArray<Corner>& across() const { return m_across; }
 
 private:
 	Array<Corner> m_sides;        // by edge

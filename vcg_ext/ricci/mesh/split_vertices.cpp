@@ -13,7 +13,8 @@ namespace ricci {
 
 namespace {
 
-/// Numbers of places, in their order: vertices of one part with equal coordinates (0 = -0) have one.
+/// Numbers of places from 1 on, in their order: vertices of one part with equal coordinates (0 = -0) have one; 0 for
+/// other vertices.
 Array<int> placesOf(
 	const std::vector<Point3>& positions,
 	const std::vector<int>& part,
@@ -27,8 +28,8 @@ Array<int> placesOf(
 			return at(a) < at(b);
 		return partOf(a) != partOf(b) ? partOf(a) < partOf(b) : a < b;
 	});
-	Array<int> place(static_cast<int>(positions.size()), -1);
-	int last = -1, count = -1;
+	Array<int> place(static_cast<int>(positions.size()), 0);
+	int last = -1, count = 0;
 	for (const int v : order) {
 		count += last < 0 || at(v) != at(last) || partOf(v) != partOf(last);
 		place[v] = count;
@@ -104,10 +105,8 @@ std::vector<std::array<Corner, 2>> findSplitVertices(
 		ends.push_back(triangles[side]);
 		ends.push_back(triangles[side.next()]);
 	}
-	for (std::vector<int>* numbers : {&faces, &ends}) {
-		std::sort(numbers->begin(), numbers->end());
-		numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
-	}
+	sortUnique(faces);
+	sortUnique(ends);
 	const Array<int> place = placesOf(positions, part, ends);
 	std::vector<Triangle> byPlace; // of the faces
 	for (const int f : faces) {

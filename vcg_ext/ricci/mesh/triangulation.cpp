@@ -15,20 +15,15 @@ namespace {
 /// For each side of each triangle the side that runs the other way between the same two vertices.
 CornerArray<Corner> sidesByVertexPair(const std::vector<Triangle>& triangles)
 {
-	CornerArray<Corner> glued(3 * triangles.size());
-	Sides(triangles).forEdges([&](const auto& edge) {
-		if (edge.size() == 1)
+	const Sides sides(triangles);
+	sides.forEdges([&](const auto& edge) {
+		if (edge.size() == 1 || sides.across()[edge[0]].isValid())
 			return;
-		const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
-		const Corner a = edge[0], b = edge[1];
-		if (edge.size() > 2 || start(a) == start(b)) {
-			const auto [low, high] = std::minmax({start(a), start(a.next())});
-			throw InvalidMesh(InvalidMesh::IncoherentEdge, positionOf(edge.size()), {low, high});
-		}
-		glued[a] = b;
-		glued[b] = a;
+		const Triangle& t = triangles[positionOf(edge[0].face())];
+		const auto [low, high] = std::minmax({t[edge[0].index()], t[edge[0].next().index()]});
+		throw InvalidMesh(InvalidMesh::IncoherentEdge, positionOf(edge.size()), {low, high});
 	});
-	return glued;
+	return sides.across();
 }
 
 } // namespace

@@ -50,7 +50,7 @@ cotangentWeights(const Triangulation& t, const EdgeArray<double>& lengths, doubl
 	return weights;
 }
 
-VertexVector vertexAreas(const Triangulation& t, const EdgeArray<double>& lengths)
+VertexVector areaShares(const Triangulation& t, const EdgeArray<double>& lengths)
 {
 	VertexVector areas = VertexVector::Zero(t.vertexCount());
 	for (const Face f : t.faces()) {
@@ -58,7 +58,7 @@ VertexVector vertexAreas(const Triangulation& t, const EdgeArray<double>& length
 		for (const Vertex v : t.vertices(f))
 			areas[v] += third;
 	}
-	return areas;
+	return areas / areas.sum();
 }
 
 Eigen::SparseMatrix<double> laplacian(

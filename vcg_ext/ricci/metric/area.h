@@ -50,8 +50,8 @@ inline Point2 triangleApex(double base, double left, double right)
 EdgeArray<double> cotangentWeights(
 	const Triangulation& t, const EdgeArray<double>& lengths, double maxCotangent = kInfinity);
 
-/// [vertex] A third of the area of its triangles.
-VertexVector vertexAreas(const Triangulation& t, const EdgeArray<double>& lengths);
+/// [vertex] A third of the area of its triangles, as a share of the whole.
+VertexVector areaShares(const Triangulation& t, const EdgeArray<double>& lengths);
 
 /// The lower triangle of L + D: for the Laplacian L with the \p weights of the edges, (L f)_i =
 /// sum w_ij (f_i - f_j), restricted to the unknown vertices, and the diagonal D.

@@ -69,19 +69,12 @@ Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix)
 	return result;
 }
 
-Eigen::SparseMatrix<double>
-restricted(const Eigen::SparseMatrix<double>& matrix, const Aggregation& aggregation)
+Eigen::SparseMatrix<double> Aggregation::sums() const
 {
 	std::vector<Eigen::Triplet<double>> entries;
-	entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
-	for (int i = 0; i < matrix.cols(); ++i)
-		for (Entry entry(matrix, i); entry; ++entry)
-			entries.emplace_back(
-				aggregation.aggregate[static_cast<int>(entry.row())],
-				aggregation.aggregate[i],
-				entry.value());
-	const int count = aggregation.root.size();
-	Eigen::SparseMatrix<double> result(count, count);
+	for (const int i : aggregate.indices())
+		entries.emplace_back(aggregate[i], i, 1.0);
+	Eigen::SparseMatrix<double> result(root.size(), aggregate.size());
 	result.setFromTriplets(entries.begin(), entries.end());
 	return result;
 }

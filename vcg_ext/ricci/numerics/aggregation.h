@@ -13,6 +13,9 @@ struct Aggregation
 {
 	Array<int> aggregate; ///< [row]
 	Array<int> root;      ///< [aggregate] the row that it grew from
+
+	/// Takes values by row to their sums by aggregate.
+	Eigen::SparseMatrix<double> sums() const;
 };
 
 /// Takes a row and its neighbours together wherever none of them is in an aggregate yet; then adds
@@ -21,10 +24,6 @@ struct Aggregation
 /// \param matrix symmetric with positive diagonal, both triangles stored; off-diagonal entries that
 /// are not negative make no neighbours
 Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix);
-
-/// The matrix on functions that are constant on every aggregate: sums of the entries of \p matrix.
-Eigen::SparseMatrix<double>
-restricted(const Eigen::SparseMatrix<double>& matrix, const Aggregation& aggregation);
 
 } // namespace ricci
 

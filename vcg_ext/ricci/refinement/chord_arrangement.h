@@ -65,10 +65,6 @@ public:
 	void divide(int places, const std::vector<Chord>& first, const std::vector<Chord>& second)
 	{
 		m_places = places;
-		if (first.empty() && second.empty()) {
-			becomeOneFace();
-			return;
-		}
 		makeLines(first, second);
 		findCrossings();
 		traceFaces();
@@ -108,20 +104,6 @@ private:
 	int farEnd(int line, int place) const
 	{
 		return m_lines[line].from == place ? m_lines[line].to : m_lines[line].from;
-	}
-
-	/// As makeLines(), findCrossings() and traceFaces() where there are no chords, as in most polygons.
-	void becomeOneFace()
-	{
-		m_lines.clear();
-		m_firstLineAt.assign(m_places + 1, 0);
-		m_crossings.clear();
-		m_segments = 0;
-		m_sides.clear();
-		for (int place = 0; place < m_places; ++place)
-			m_sides.push_back({place, place, -1, true});
-		m_firstSide.assign(1, 0);
-		m_firstSide.push_back(m_places);
 	}
 
 	void makeLines(const std::vector<Chord>& first, const std::vector<Chord>& second)

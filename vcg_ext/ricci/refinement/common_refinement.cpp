@@ -361,12 +361,13 @@ private:
 
 } // namespace
 
-SurfaceLayout layOutRefinement(
-	const FlowDomain& domain,
-	const FlowResult& flow,
-	OverlayPieces pieces,
-	const EdgeArray<char>& isCut)
+SurfaceLayout
+layOutRefinement(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
 {
+	OverlayPieces pieces = [&] {
+		const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
+		return divideStartTriangles(domain, flow);
+	}();
 	return RefinementMaker(domain, flow, std::move(pieces), isCut).run();
 }
 

@@ -129,7 +129,7 @@ public:
 			PointOnEnd& end = first[k].end;
 			if (nodes[k].end >= 0) {
 				const EndCrossing& x = m_crossings.endCrossings[nodes[k].end];
-				end = PointOnEnd(x.edge, shareOnEnd(x));
+				end = {PointOnEnd::OnEdge, x.edge.number(), shareOnEnd(x)};
 				before = x.onStart;
 				sumBefore = onEndMetric(x).sum();
 				first[k].scale = sumBefore / x.onStart.over(gi, gj).sum();
@@ -139,9 +139,10 @@ public:
 			const EdgeWeights here = EdgeWeights::ofShare(nodes[k].share, gi, gj);
 			if (curve.crossings.empty()) { // the start edge is an end edge
 				const EdgeWeights onEnd = here.over(m_endRadius[i], m_endRadius[j]);
-				end = PointOnEnd(
-					curve.first.edge(),
-					keepInside(curve.first.isFirst() ? onEnd.affine() : onEnd.reversed().affine()));
+				end = {
+					PointOnEnd::OnEdge,
+					curve.first.edge().number(),
+					keepInside(curve.first.isFirst() ? onEnd.affine() : onEnd.reversed().affine())};
 				continue;
 			}
 			int next = k + 1;
@@ -163,7 +164,7 @@ public:
 			FaceWeights weights;
 			for (std::size_t c = 0; c < 3; ++c)
 				weights[c] = mix(from[c], to[c], share);
-			end = PointOnEnd(faceOfInterval(e, passed), weights);
+			end = {PointOnEnd::InFace, faceOfInterval(e, passed).number(), 0.0, weights};
 		}
 	}
 
@@ -266,7 +267,7 @@ StartEdgeNodes::StartEdgeNodes(
 	m_indexOfEnd.resize(crossings.endCrossings.size());
 	nodes.resize(m_vertexCount);
 	for (const Vertex v : start.vertices())
-		nodes[v.number()] = {atVertex(v), PointOnEnd(v), end.scale(v)};
+		nodes[v.number()] = {atVertex(v), {PointOnEnd::AtVertex, v.number()}, end.scale(v)};
 	EdgeNodes onEdge;
 	for (const Edge e : start.edges()) {
 		const auto [i, j] = start.ends(e);

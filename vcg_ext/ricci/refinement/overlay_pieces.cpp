@@ -113,7 +113,7 @@ private:
 		}
 		const int index = m_edgeNodes.indexOfEnd(m_crossings.endNumber(x));
 		const int node = m_edgeNodes.node(x.halfedge.edge().halfedge(), index);
-		return {index, m_result.nodes[node].end.share()};
+		return {index, m_result.nodes[node].end.share};
 	}
 
 	/// Halfedge of the original triangulation that start halfedge h is, if it is one.
@@ -238,7 +238,10 @@ private:
 		const EdgeWeights onChord{
 			(1.0 - onB) * m_result.nodes[nodeOf(b.from.halfedge, b.from.index)].scale,
 			onB * m_result.nodes[nodeOf(b.to.halfedge, b.to.index)].scale};
-		node.end = PointOnEnd(b.edge, keepInside(mix(b.from.share, b.to.share, onChord.affine())));
+		node.end = {
+			PointOnEnd::OnEdge,
+			b.edge.number(),
+			keepInside(mix(b.from.share, b.to.share, onChord.affine()))};
 		m_result.nodes.push_back(node);
 	}
 
@@ -363,8 +366,8 @@ void OverlayPieces::findFaces(const Triangulation& input, const Triangulation& e
 				endFace[p] = end.face(c.end);
 			else if (c.endCorner.isValid())
 				endFace[p] = end.face(c.endCorner);
-			else if (onEnd.kind() == PointOnEnd::InFace)
-				endFace[p] = onEnd.face();
+			else if (onEnd.kind == PointOnEnd::InFace)
+				endFace[p] = Face(onEnd.element);
 		}
 	spread(inputFace, [](const PieceCorner& c) { return c.input.isValid(); });
 	spread(endFace, [](const PieceCorner& c) { return c.end.isValid(); });
@@ -424,14 +427,14 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 	const PieceCorner& c = pieces(piece, corner);
 	const Face f = pieces.endFace[piece];
 	const PointOnEnd& point = pieces.nodes[c.node].end;
-	if (point.kind() == PointOnEnd::InFace)
-		return point.weight();
+	if (point.kind == PointOnEnd::InFace)
+		return point.weight;
 	Halfedge g; // halfedge of f at whose origin, or inside which, the point is
-	if (point.kind() == PointOnEnd::AtVertex) {
+	if (point.kind == PointOnEnd::AtVertex) {
 		g = c.endCorner;
 		if (!g.isValid() || end.face(g) != f)
 			for (const Halfedge h : end.halfedges(f))
-				if (end.origin(h) == point.vertex())
+				if (end.origin(h) == Vertex(point.element))
 					g = h;
 		if (!g.isValid())
 			throw InternalError("A piece of the overlay is not in its triangle.");
@@ -439,7 +442,7 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 	}
 	// Where both sides of the edge are f, the piece's own sides tell which one it is.
 	const auto offer = [&](Halfedge h) {
-		if (h.isValid() && h.edge() == point.edge() && end.face(h) == f)
+		if (h.isValid() && h.edge() == Edge(point.element) && end.face(h) == f)
 			g = h;
 	};
 	for (const Halfedge h : end.halfedges(f))
@@ -448,7 +451,7 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 	offer(c.end);
 	if (!g.isValid())
 		throw InternalError("A piece of the overlay is not in its triangle.");
-	return pointOnSide(end, g, g.isFirst() ? point.share() : 1.0 - point.share());
+	return pointOnSide(end, g, g.isFirst() ? point.share : 1.0 - point.share);
 }
 
 std::vector<std::array<std::size_t, 3>>

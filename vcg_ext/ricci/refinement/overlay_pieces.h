@@ -100,31 +100,14 @@ inline FaceWeights pointOnSide(const Triangulation& t, Halfedge h, double share)
 }
 
 /// A point of the end triangulation, by the element inside which it lies.
-class PointOnEnd
+struct PointOnEnd
 {
-public:
 	enum Kind { AtVertex, OnEdge, InFace };
 
-	PointOnEnd() = default;
-	explicit PointOnEnd(Vertex v) : m_element(v.number()) {}
-	PointOnEnd(Edge e, double share) : m_kind(OnEdge), m_element(e.number()), m_share(share) {}
-	PointOnEnd(Face f, const FaceWeights& p) : m_kind(InFace), m_element(f.number()), m_weight(p) {}
-
-	Kind kind() const { return m_kind; }
-	Vertex vertex() const { return Vertex(m_element); } ///< \pre AtVertex
-	Edge edge() const { return Edge(m_element); }       ///< \pre OnEdge
-	Face face() const { return Face(m_element); }       ///< \pre InFace
-
-	/// \pre OnEdge
-	double share() const { return m_share; }
-	/// \pre InFace
-	const FaceWeights& weight() const { return m_weight; }
-
-private:
-	Kind m_kind = AtVertex;
-	int m_element = -1;
-	double m_share = 0.0;
-	FaceWeights m_weight{0, 0, 0};
+	Kind kind = AtVertex;
+	int element = -1;            ///< number of the vertex, edge or face
+	double share = 0.0;          ///< on an edge
+	FaceWeights weight{0, 0, 0}; ///< in a face
 };
 
 /// A vertex of the overlay.
@@ -245,7 +228,7 @@ inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, 
 std::vector<std::array<std::size_t, 3>>
 triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& space);
 
-/// The layout of the overlay \p pieces of the triangles of the input, of the start and of the end of \p flow, cut
+/// The layout of the overlay, divideStartTriangles(), of the triangles of the input, of the start and of the end of \p flow, cut
 /// along the surface's edges with \p isCut: every piece lies in one triangle of each, and the map to the plane or
 /// the disk is the flow's own there. The vertices of the refinement are the surface's, then the points where
 /// edges cross.
@@ -255,11 +238,8 @@ triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& sp
 /// end triangle with the same vertices [Springborn Schroeder Pinkall 2008], [Bobenko Lutz 2023];
 /// on the refinement it is continuous across all edges [Gillespie Springborn Crane 2021].
 /// \pre the flow ran with intrinsic flips
-SurfaceLayout layOutRefinement(
-	const FlowDomain& domain,
-	const FlowResult& flow,
-	OverlayPieces pieces,
-	const EdgeArray<char>& isCut);
+SurfaceLayout
+layOutRefinement(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut);
 
 } // namespace ricci
 
