@@ -444,6 +444,14 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRe
 {
 	advance(0.0, "Placing cones");
 	LinearFlow linear(surface, flow, request.boundary(), tailWeights(surface, flowFactor(flow)));
+	if (request.goal.kind == ConeGoal::LeastCost) {
+		PlacedCones placed = placeCones(surface, linear, request);
+		const auto k = Eigen::Map<const Eigen::VectorXd>(
+			placed.curvatures.data(), static_cast<Eigen::Index>(placed.curvatures.size()));
+		const VertexVector whole = spreadOut(placed.vertices, k, linear.vertexCount());
+		placed.distortion = areaChange(surface, linear.factor(whole)).spread;
+		return placed;
+	}
 	const ConeSites sites(surface, request.coneVertices());
 	ConeModel model(linear, surface.topology.type.totalCurvature());
 	std::vector<Vertex> cones;

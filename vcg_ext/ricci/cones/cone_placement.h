@@ -123,7 +123,7 @@ placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const TargetRequest
 /// spread), or kMaxPlacedCones were added. Mean squares weigh the parts of the surface that have become very small or
 /// very large, see tailWeights().
 /// \param flow on \p surface, with intrinsic flips and the boundary of \p request
-/// \param request for a spread
+/// \param request without a count
 /// \return cones with the spread of all areas that is to be expected
 /// \throw SolverFailed
 PlacedCones

@@ -19,6 +19,9 @@ namespace ricci {
 
 namespace {
 
+/// By so much less, energy and price of seams are not worth another flow.
+constexpr double kWorthAFlow = 0.03;
+
 std::string number(double x)
 {
 	return numberText(x, 9);
@@ -382,17 +385,22 @@ chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const Target
 bool keepsAreas(
 	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
-	return request.goal.kind != ConeGoal::Spread || !flow.target.expected ||
-		   excessOfAreas(surface, flow, request) <= 1.0;
+	const std::optional<MapCost>& expected = flow.target.expected;
+	const bool goesBySpread = request.goal.kind == ConeGoal::Spread;
+	return !expected || areaCost(surface, flow, request) <=
+							(goesBySpread ? 1.0 : expected->total() + kWorthAFlow);
 }
 
 double
-excessOfAreas(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
+areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request)
 {
-	return areaExcess(areaChange(surface, flowFactor(flow)), request.goal.spread, kSpreadSlack);
+	const AreaChange change = areaChange(surface, flowFactor(flow));
+	return request.goal.kind == ConeGoal::Spread
+			   ? areaExcess(change, request.goal.spread, kSpreadSlack)
+			   : MapCost{change.energy, flow.target.expected->seams}.total();
 }
 
-Target targetToKeepAreas(
+std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	InitialPacking& start,
 	const FlowResult& flow,
@@ -401,6 +409,9 @@ Target targetToKeepAreas(
 	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
 	const PlacedCones cones = wasFlat && request.freeBoundary ? placeCones(surface, start, request)
 															  : moreCones(surface, flow, request);
+	if (request.goal.kind == ConeGoal::LeastCost &&
+		cones.expectation().total() > areaCost(surface, flow, request) - kWorthAFlow)
+		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = targetWithCones(surface, cones, request);
 	target.choice = flow.target.choice;

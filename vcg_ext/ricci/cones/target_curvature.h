@@ -24,21 +24,25 @@ namespace ricci {
 Target
 chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 
-/// Whether \p flow changes areas no more than is asked for, or its target was not chosen by that.
+/// Whether \p flow changes areas no more than is asked for, or costs little more than its target was expected to;
+/// or its target was chosen by neither (Target::expected).
 /// \param flow with intrinsic flips
 bool keepsAreas(
 	const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
 
-/// areaExcess() of \p flow at the spread that is asked for.
+/// What \p flow has in excess of one that keeps areas: areaExcess() where a spread is asked for, else what its map
+/// costs (MapCost).
+/// \pre the target has an expected cost
 double
-excessOfAreas(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
+areaCost(const EmbeddedSurface& surface, const FlowResult& flow, const TargetRequest& request);
 
-/// The next target after \p flow: cones as moreCones() finds them.
+/// The next target after \p flow: cones as moreCones() finds them; none where the target was chosen to
+/// cost least and no other is expected to cost less by what another flow is worth.
 /// \param start of another flow on \p surface, as for chooseTarget()
 /// \param flow with intrinsic flips
 /// \pre !keepsAreas(\p surface, \p flow, \p request)
 /// \throw as chooseTarget()
-Target targetToKeepAreas(
+std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	InitialPacking& start,
 	const FlowResult& flow,
