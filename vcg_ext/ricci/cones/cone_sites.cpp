@@ -41,6 +41,8 @@ ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 			m_toCut[v] = 0.0;
 	}
 	checkpoint();
+	if (surface.topology.type.isSphere() || surface.topology.type.isDisk())
+		return;
 	VertexArray<double> lengths(t.vertexCount(), 0.0); // of the edges at a vertex
 	for (const Halfedge h : t.halfedges())
 		lengths[t.origin(h)] += surface.lengths[h.edge()];

@@ -168,13 +168,18 @@ Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
 	factorize();
+	// Entry by entry: expressions of rows cost more where there are few columns.
+	const auto& row = m_hessian->row();
 	Eigen::MatrixXd rows(m_hessian->unknowns(), rhs.cols()), x(rhs.rows(), rhs.cols());
 	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
-		rows.col(k) = m_hessian->gather(rhs.col(k));
+		for (const Vertex v : row.indices())
+			if (row[v] >= 0)
+				rows(row[v], k) = rhs(v.number(), k);
 	if (rows.rows() > 0)
 		rows = m_hessian->cholesky().solve(rows);
 	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
-		x.col(k) = m_hessian->scatter(rows.col(k));
+		for (const Vertex v : row.indices())
+			x(v.number(), k) = row[v] >= 0 ? rows(row[v], k) : 0.0;
 	return x;
 }
 
