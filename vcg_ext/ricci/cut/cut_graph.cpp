@@ -86,8 +86,7 @@ private:
 /// first tree consists of shortest paths to the nearest terminal, joined by edges of which those that belong to
 /// the shortest connections of two terminals come first. Without its dead ends it is at most twice as long as
 /// the shortest tree through the terminals [Mehlhorn 1988].
-EdgeArray<char>
-treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal, Vertex root)
+EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal)
 {
 	const Triangulation& t = graph.surface();
 	std::vector<Vertex> roots;
@@ -95,7 +94,7 @@ treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal, Ve
 		if (terminal[n])
 			roots.push_back(n);
 	if (roots.empty())
-		roots.push_back(root.isValid() ? root : t.origin(t.halfedge(Face(0))));
+		roots.push_back(t.origin(t.halfedge(Face(0))));
 	const NodePaths paths = graph.pathsFrom(roots);
 	EdgeArray<char> isCut(t.edgeCount(), 0);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
@@ -204,12 +203,11 @@ cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, Vertex
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }
 
-CutGraph cutToDisk(
-	const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones, Vertex root)
+CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
 {
 	const ContractedGraph graph(t, cost);
 	const VertexArray<char> terminal = graph.terminals(cones);
-	EdgeArray<char> isCut = treeAndLoops(graph, terminal, root);
+	EdgeArray<char> isCut = treeAndLoops(graph, terminal);
 	prune(graph, terminal, isCut);
 	shortenCut(t, cost, cones, isCut);
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
