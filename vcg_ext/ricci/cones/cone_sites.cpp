@@ -34,78 +34,32 @@ ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 			}),
 		m_toCut(surface.triangulation.vertexCount(), kInfinity)
 {
-	for (const Vertex v : m_isAllowed.indices())
-		m_isAllowed[v] = (vertices < 0 || v.number() < vertices) && !surface.topology.boundary[v];
-	checkpoint();
-	findCut(surface);
-	checkpoint();
-}
-
-/// What a tree of shortest paths, from the boundary if there is one, and a tree of dual edges leave over,
-/// the longest ways between two paths first [Erickson Whittlesey 2005], shortened as that of a map will be.
-void ConeSites::findCut(const EmbeddedSurface& surface)
-{
 	const Triangulation& t = surface.triangulation;
-	std::vector<Vertex> roots;
-	for (const Vertex v : t.vertices())
-		if (surface.topology.boundary[v]) {
-			roots.push_back(v);
+	for (const Vertex v : t.vertices()) {
+		m_isAllowed[v] = (vertices < 0 || v.number() < vertices) && !surface.topology.boundary[v];
+		if (surface.topology.boundary[v])
 			m_toCut[v] = 0.0;
-		}
+	}
+	checkpoint();
 	if (surface.topology.type.isSphere() || surface.topology.type.isDisk())
 		return;
-	if (roots.empty()) {
-		// One that depends on no numbers: with the longest edges.
-		VertexArray<double> lengths(t.vertexCount(), 0.0);
-		for (const Halfedge h : t.halfedges())
-			lengths[t.origin(h)] += surface.lengths[h.edge()];
-		roots.emplace_back(
-			static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
-	}
-	const auto paths = shortestPaths<Vertex, Halfedge>(
-		t.vertexCount(), roots, [&](Vertex from, const auto& visit) {
-			for (const Halfedge h : t.around(from))
-				visit(t.target(h), surface.lengths[h.edge()], h);
-		});
-	EdgeArray<char> isPath(t.edgeCount(), 0);
-	for (const Halfedge h : paths.parents())
-		if (h.isValid())
-			isPath[h.edge()] = 1;
-	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
-	for (const Edge e : t.edges()) {
-		const auto [a, b] = t.ends(e);
-		loopLength[e] = paths[a] + surface.lengths[e] + paths[b];
-	}
-	VertexArray<int> uses(t.vertexCount(), 0); // edges of the cut at a vertex
-	EdgeArray<char> isCut(t.edgeCount(), 0);
-	const auto take = [&](Edge e, int sign) {
-		isCut[e] = sign > 0;
-		for (const Vertex v : t.ends(e))
-			uses[v] += sign;
-	};
-	for (const Edge e : edgesBesideCotree(t, isPath, loopLength)) {
-		take(e, 1);
-		for (Vertex v : t.ends(e))
-			for (Halfedge h = paths.parent(v); h.isValid() && !isCut[h.edge()];
-				 h = paths.parent(t.origin(h)))
-				take(h.edge(), 1);
-	}
-	// The paths have come together before the root.
-	for (Vertex end = roots.front(); surface.topology.type.isClosed() && uses[end] == 1;)
-		for (const Halfedge h : t.around(end))
-			if (isCut[h.edge()]) {
-				take(h.edge(), -1);
-				end = t.target(h);
-				break;
-			}
-	shortenCut(t, surface.lengths, VertexArray<char>(t.vertexCount(), 0), isCut);
+	VertexArray<double> lengths(t.vertexCount(), 0.0); // of the edges at a vertex
+	for (const Halfedge h : t.halfedges())
+		lengths[t.origin(h)] += surface.lengths[h.edge()];
+	const auto root = std::max_element(lengths.begin(), lengths.end()); // whatever the numbers
+	const CutGraph cut = cutToDisk(
+		t,
+		surface.lengths,
+		VertexArray<char>(t.vertexCount(), 0),
+		Vertex(static_cast<int>(root - lengths.begin())));
 	for (const Edge e : t.edges())
-		if (isCut[e]) {
+		if (cut.isCut[e]) {
 			m_cutLength += surface.lengths[e];
 			for (const Vertex v : t.ends(e))
 				m_toCut[v] = 0.0;
 		}
 	m_cutLength /= unit(surface);
+	checkpoint();
 }
 
 ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :

@@ -44,8 +44,6 @@ public:
 	double cutLength() const { return m_cutLength; }
 
 private:
-	void findCut(const EmbeddedSurface& surface);
-
 	VertexArray<char> m_isAllowed;
 	Adjacency<Vertex, Way> m_ways;
 	VertexArray<double> m_toCut; // of the surface's own vertices: 0 or infinite

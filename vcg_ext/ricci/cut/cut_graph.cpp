@@ -86,7 +86,8 @@ private:
 /// first tree consists of shortest paths to the nearest terminal, joined by edges of which those that belong to
 /// the shortest connections of two terminals come first. Without its dead ends it is at most twice as long as
 /// the shortest tree through the terminals [Mehlhorn 1988].
-EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal)
+EdgeArray<char>
+treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal, Vertex root)
 {
 	const Triangulation& t = graph.surface();
 	std::vector<Vertex> roots;
@@ -94,7 +95,7 @@ EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<cha
 		if (terminal[n])
 			roots.push_back(n);
 	if (roots.empty())
-		roots.push_back(t.origin(t.halfedge(Face(0))));
+		roots.push_back(root.isValid() ? root : t.origin(t.halfedge(Face(0))));
 	const NodePaths paths = graph.pathsFrom(roots);
 	EdgeArray<char> isCut(t.edgeCount(), 0);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
@@ -203,11 +204,12 @@ cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, Vertex
 	return cutGraphOf(t, std::move(cones), std::move(isCut));
 }
 
-CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones)
+CutGraph cutToDisk(
+	const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones, Vertex root)
 {
 	const ContractedGraph graph(t, cost);
 	const VertexArray<char> terminal = graph.terminals(cones);
-	EdgeArray<char> isCut = treeAndLoops(graph, terminal);
+	EdgeArray<char> isCut = treeAndLoops(graph, terminal, root);
 	prune(graph, terminal, isCut);
 	shortenCut(t, cost, cones, isCut);
 	return cutGraphOf(t, std::move(cones), std::move(isCut));

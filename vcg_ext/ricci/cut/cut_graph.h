@@ -33,16 +33,21 @@ struct CutGraph
 /// [Erickson Whittlesey 2005]): a tree of shortest paths to the nearest of several roots and of short connections
 /// between these, a spanning tree of the dual that crosses the edges with the longest loops first, and the
 /// 2 genus edges in neither. Roots are the boundary loops, each of which counts as one point, and the vertices
-/// with \p cones, or any vertex where there are none. The cut reaches them; other dead ends are
+/// with \p cones, or one vertex where there are none. The cut reaches them; other dead ends are
 /// taken back. What is left is shortened by shortenCut().
 ///
 /// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
 /// sum; infinite where the cut must not run
 /// \param cones see CutGraph
+/// \param root where there is none otherwise; any if it is not valid
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
-CutGraph cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, VertexArray<char> cones);
+CutGraph cutToDisk(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	VertexArray<char> cones,
+	Vertex root = {});
 
 /// What a cut graph with these edges is.
 CutGraph cutGraphOf(const Triangulation& t, VertexArray<char> cones, EdgeArray<char> isCut);
@@ -62,6 +67,7 @@ std::optional<CutGraph> mirroredCut(
 /// than the cut graph of cutToDisk().
 /// \param lengths of the edges
 /// \param cones see CutGraph
+/// \param root where there is none otherwise; any if it is not valid
 /// \pre \p t is connected
 CutGraph
 cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones);
