@@ -18,13 +18,28 @@ constexpr double kMaxTailWeight = 1e6;
 /// Below this x, sinh(x) / x is 1 to the last place but two.
 constexpr double kSmallTail = 1e-6;
 
+/// Share of each triangle in the area of the surface in space.
+FaceArray<double> areaShares(const EmbeddedSurface& surface)
+{
+	const Triangulation& t = surface.triangulation;
+	FaceArray<double> share(t.faceCount());
+	double total = 0.0;
+	for (const Face f : t.faces()) {
+		share[f] = euclideanArea(sidesOf(t, surface.lengths, f));
+		total += share[f];
+	}
+	for (double& s : share)
+		s /= total;
+	return share;
+}
+
 /// ln of the mean of exp(\p x), which may be too large for a double, with weights that add up to 1.
-template<class Weights, class Values>
-double logMean(const Weights& weight, const Values& x)
+template<class Index>
+double logMean(const IndexedArray<Index, double>& weight, const IndexedArray<Index, double>& x)
 {
 	const double largest = *std::max_element(x.begin(), x.end());
 	double sum = 0.0;
-	for (const auto i : x.indices())
+	for (const Index i : x.indices())
 		sum += weight[i] * std::exp(x[i] - largest);
 	return largest + std::log(sum);
 }
@@ -40,13 +55,11 @@ double logMeanOfNormal(double spread)
 AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor)
 {
 	const Triangulation& t = surface.triangulation;
-	FaceArray<double> share, logFactor(t.faceCount());
-	const double total = euclideanArea(t, surface.lengths);
-	for (const Face f : t.faces()) {
-		share.push_back(euclideanArea(sidesOf(t, surface.lengths, f)) / total);
+	const FaceArray<double> share = areaShares(surface);
+	FaceArray<double> logFactor(t.faceCount());
+	for (const Face f : t.faces())
 		for (const Vertex v : t.vertices(f))
 			logFactor[f] += 2.0 / 3.0 * factor[v];
-	}
 	const double level = logMean(share, logFactor);
 	double mean = 0.0, meanInverse = 0.0, logSum = 0.0, logSquare = 0.0;
 	for (const Face f : t.faces()) {
@@ -72,7 +85,15 @@ double areaExcess(const AreaChange& change, double spread, double slack)
 VertexVector tailWeights(const EmbeddedSurface& surface, const VertexVector& factor)
 {
 	const Triangulation& t = surface.triangulation;
-	const VertexVector area = areaShares(t, surface.lengths), plus = 2.0 * factor, minus = -plus;
+	const FaceArray<double> share = areaShares(surface);
+	VertexArray<double> area(t.vertexCount(), 0.0), plus(t.vertexCount()), minus(t.vertexCount());
+	for (const Face f : t.faces())
+		for (const Vertex v : t.vertices(f))
+			area[v] += share[f] / 3.0;
+	for (const Vertex v : t.vertices()) {
+		plus[v] = 2.0 * factor[v];
+		minus[v] = -plus[v];
+	}
 	const bool isLinear = areaChange(surface, factor).spread <= kWideSpread;
 	const double centre = 0.5 * (logMean(area, plus) - logMean(area, minus));
 	VertexVector weights(t.vertexCount());

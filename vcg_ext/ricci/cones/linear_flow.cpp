@@ -4,7 +4,6 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../flow/curvature_map.h"
-#include "../metric/area.h"
 #include "../metric/circle_packing.h"
 #include "../metric/geometry.h"
 #include "../numerics/aggregation.h"
@@ -39,7 +38,7 @@ LinearFlow::LinearFlow(
 	const auto map = mapOf(
 		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
 	m_curvature = map->curvature();
-	m_area = areaShares(map->triangulation(), map->lengths());
+	computeAreas(*map);
 	layOut(surface, *map, boundary);
 	if (start.isDelaunay)
 		start.hessian = m_hessian;
@@ -183,6 +182,20 @@ Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 	return x;
 }
 
+void LinearFlow::computeAreas(const CurvatureMap& map)
+{
+	const Triangulation& t = map.triangulation();
+	m_area.setZero(t.vertexCount());
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const double area = 0.5 * map.lengths()[h[0].edge()] * map.lengths()[h[2].edge()] *
+							std::sin(map.angles()[h[0]]);
+		for (const Halfedge side : h)
+			m_area[t.origin(side)] += area / 3.0;
+	}
+	m_area /= m_area.sum();
+}
+
 VertexVector boundaryShares(const EmbeddedSurface& surface)
 {
 	const Triangulation& t = surface.triangulation;
@@ -216,7 +229,8 @@ LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
 	if (fine.sink.size() > 0)
 		coarse.sink = sums * fine.sink;
 	if (fine.factor.size() > 0)
-		coarse.factor = (sums * fine.area.cwiseProduct(fine.factor)).cwiseQuotient(coarse.area);
+		coarse.factor =
+			(sums * fine.area.cwiseProduct(fine.factor)).cwiseQuotient(coarse.area);
 	return coarse;
 }
 

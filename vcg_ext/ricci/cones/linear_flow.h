@@ -99,6 +99,7 @@ public:
 	LinearSystem system(VertexArray<Vertex>& vertices) const;
 
 private:
+	void computeAreas(const CurvatureMap& map);
 	void layOut(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 

@@ -67,7 +67,6 @@ std::optional<CutGraph> mirroredCut(
 /// than the cut graph of cutToDisk().
 /// \param lengths of the edges
 /// \param cones see CutGraph
-/// \param root where there is none otherwise; any if it is not valid
 /// \pre \p t is connected
 CutGraph
 cutAroundCentre(const Triangulation& t, const EdgeArray<double>& lengths, VertexArray<char> cones);
