@@ -229,8 +229,7 @@ LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
 	if (fine.sink.size() > 0)
 		coarse.sink = sums * fine.sink;
 	if (fine.factor.size() > 0)
-		coarse.factor =
-			(sums * fine.area.cwiseProduct(fine.factor)).cwiseQuotient(coarse.area);
+		coarse.factor = (sums * fine.area.cwiseProduct(fine.factor)).cwiseQuotient(coarse.area);
 	return coarse;
 }
 
