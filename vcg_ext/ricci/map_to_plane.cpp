@@ -153,18 +153,17 @@ Parametrization withOtherCones(
 			[&](const Target& target) {
 				return target.expected && target.expected->total(factor) < cost();
 			});
-	VertexVector tried; // the curvature of the cones
+	bool isFull = false; // no more cones may be placed: they would be the same again
 	for (const double spread : kSpreadsInstead)
-		if (cost() > kPoorCost || (isBroken && !isBrokenByEnergy && spread == kSpreadsInstead[0]))
+		if (!isFull &&
+			(cost() > kPoorCost || (isBroken && !isBrokenByEnergy && spread == kSpreadsInstead[0])))
 			tryOther(
 				[&](TargetRequest& request) {
 					request.goal = {ConeGoal::Spread, 0, spread};
 				},
-				[&](const Target& target) { // where no more may be placed, they are the same again
-					const bool isOther =
-						tried.size() != target.curvature.size() || tried != target.curvature;
-					tried = target.curvature;
-					return isOther;
+				[&](const Target& target) {
+					isFull = target.expectedSpread > spread;
+					return !isFull || (target.expected && target.expected->total() < cost());
 				});
 	return map;
 }
