@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace ricci::testing {
 namespace {
 
@@ -63,6 +65,23 @@ TEST(Mirror, ImagesAreReflectionsAndPartsOnOneSideHaveNone)
 		for (double& x : p)
 			x += random.real(-0.05, 0.05);
 	EXPECT_FALSE(findMirror(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles)));
+}
+
+/// Vertices round a can of needles lie closer together than a thousandth of its long sides.
+TEST(Mirror, OfNeedlesIsNoneWhereOneRimIsTurned)
+{
+	const int around = 4000;
+	SurfaceMesh can = revolved({{0.0, 0.0}, {1.0, 0.0}, {1.0, 3.0}, {0.0, 3.0}}, around);
+	const auto hasMirror = [&] {
+		return findMirror(embeddedSurface(VertexArray<Point3>(can.positions), can.triangles)) !=
+			   nullptr;
+	};
+	EXPECT_TRUE(hasMirror());
+	for (int j = 0; j < around; ++j) {
+		const double a = 2 * kPi * (j + 0.25) / around;
+		can.positions[positionOf(1 + around + j)] = {std::cos(a), std::sin(a), 3.0};
+	}
+	EXPECT_FALSE(hasMirror());
 }
 
 } // namespace

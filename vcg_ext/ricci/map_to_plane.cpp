@@ -123,11 +123,12 @@ Parametrization withOtherCones(
 	double alternative,
 	Parametrization map)
 {
-	double own = costOf(map).total();
+	const MapCost first = costOf(map);
+	double own = first.total();
 	const auto cost = [&] { return std::min(own, alternative); };
 	const double isometry = expectedEnergy(0.0);
 	const double factor = std::clamp(
-		(costOf(map).energy - isometry) / std::max(kTiny, expected.energy - isometry),
+		(first.energy - isometry) / std::max(kTiny, expected.energy - isometry),
 		1.0,
 		kMaxEnergyFactor);
 	const double mostPromised = expected.total() + kBrokenPromise;
@@ -153,17 +154,23 @@ Parametrization withOtherCones(
 			[&](const Target& target) {
 				return target.expected && target.expected->total(factor) < cost();
 			});
-	bool isFull = false; // no more cones may be placed: they would be the same again
+	VertexVector tried;   // the curvature of the cones
+	bool atLimit = false; // then a smaller spread finds the same again
 	for (const double spread : kSpreadsInstead)
-		if (!isFull &&
+		if (!atLimit &&
 			(cost() > kPoorCost || (isBroken && !isBrokenByEnergy && spread == kSpreadsInstead[0])))
 			tryOther(
 				[&](TargetRequest& request) {
 					request.goal = {ConeGoal::Spread, 0, spread};
 				},
 				[&](const Target& target) {
-					isFull = target.expectedSpread > spread;
-					return !isFull || (target.expected && target.expected->total() < cost());
+					atLimit = target.conesAtLimit;
+					const bool isOther =
+						tried.size() != target.curvature.size() || tried != target.curvature;
+					tried = target.curvature;
+					// As many as may be placed are worth a flow where they promise something.
+					return isOther &&
+						   (!atLimit || (target.expected && target.expected->total() < cost()));
 				});
 	return map;
 }

@@ -333,6 +333,7 @@ PlacedCones placeOnSurface(
 		searchFromCoarse(request, flow, model, sites);
 	mirrorCones(request, sites, {}, surface.positions, model);
 	PlacedCones placed = result(model, sites);
+	placed.atLimit = model.size() >= maxCones(model, request);
 	mirrorCurvatures(request, placed);
 	return placed;
 }

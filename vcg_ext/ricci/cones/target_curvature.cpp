@@ -215,6 +215,7 @@ void setPlacedCones(
 	target.used = TargetUsed::PlacedCones;
 	target.expectedSpread = cones.distortion;
 	target.isSeamless = request.rounding == ConeRounding::QuarterTurns;
+	target.conesAtLimit = cones.atLimit;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
 	if (request.measuresAreas && request.goal.kind != ConeGoal::Count)
 		target.expected = cones.expectation();

@@ -85,6 +85,7 @@ struct Target
 	std::optional<MapCost> expected; ///< where it was chosen to cost least, or to keep areas
 	double seamsWithout = 0.0;       ///< see PlacedCones; 0 where cones were not considered
 	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
+	bool conesAtLimit = false;       ///< see PlacedCones
 	TargetUsed used = TargetUsed::Prescribed;
 	std::optional<double> expectedSpread; ///< see Report
 	std::string choice;                   ///< see Report

@@ -15,8 +15,8 @@ namespace ricci {
 
 namespace {
 
-/// How far a vertex may be from the image of another, in medians of the lengths of edges: less than a person would see, and far
-/// more than the rounding of coordinates.
+/// How far a vertex may be from the image of another, in medians of the triangles' shortest sides, as vertices of needles lie
+/// no farther apart: less than a person would see, and far more than the rounding of coordinates.
 constexpr double kMirrorNoise = 1e-3;
 
 /// Share of the vertices that may have no image: models have small parts on one side only.
@@ -227,7 +227,15 @@ void mirrorEdges(const Triangulation& t, MirrorSymmetry& mirror)
 std::shared_ptr<const MirrorSymmetry>
 findMirror(const EmbeddedSurface& surface, const VertexArray<char>& onHole)
 {
-	const double noise = kMirrorNoise * median(surface.lengths.values());
+	std::vector<double> shortest;
+	for (const Face f : surface.triangulation.faces()) {
+		const auto sides = surface.triangulation.halfedges(f);
+		shortest.push_back(std::min(
+			{surface.lengths[sides[0].edge()],
+			 surface.lengths[sides[1].edge()],
+			 surface.lengths[sides[2].edge()]}));
+	}
+	const double noise = kMirrorNoise * median(std::move(shortest));
 	const PointsOnLine points(surface.positions.values());
 	std::shared_ptr<MirrorSymmetry> best;
 	double least = kInfinity;
