@@ -123,16 +123,17 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 
 Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 {
-	const auto isFlipped = [&](int f) {
-		const Triangle2 t = mesh.at(f);
-		return doubledArea(t) < 0.0;
-	};
+	const auto hasNegativeArea = [&](int f) { return doubledArea(mesh.at(f)) < 0.0; };
+	const bool hasFlipped = std::any_of(triangles.begin(), triangles.end(), hasNegativeArea);
+	const auto isFlipped = [&](int f) { return hasFlipped && hasNegativeArea(f); };
 	Outline outline;
 	for (const int f : triangles)
 		for (const Corner side : cornersOf(f)) {
-			const auto [a, b] = mesh.ends(side);
 			const Corner other = mesh.joined(side);
-			if (a != b && !(other.isValid() && isFlipped(f) == isFlipped(other.face())))
+			if (other.isValid() && isFlipped(f) == isFlipped(other.face()))
+				continue;
+			const auto [a, b] = mesh.ends(side);
+			if (a != b)
 				outline.push_back(isFlipped(f) ? std::array{b, a} : std::array{a, b});
 		}
 	std::sort(outline.begin(), outline.end());
