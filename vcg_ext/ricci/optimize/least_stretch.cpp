@@ -78,7 +78,8 @@ bool leastStretch(FlatMesh& flat, const PointGroups& groups)
 		return std::exchange(value, next) - next;
 	};
 	const auto isWorthAStep = [&](double gain) {
-		return gain > std::max(0.0, kMinStretchGain * (value - MapCost().energy));
+		// It may be less than an isometry's where some triangles do not count.
+		return gain > kMinStretchGain * std::abs(value - MapCost().energy);
 	};
 	int steps = 0;
 	while (steps < kMaxStretchSteps && std::isfinite(value) && isWorthAStep(gainOfStep()))
