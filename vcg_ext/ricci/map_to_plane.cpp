@@ -168,7 +168,7 @@ Parametrization withOtherCones(
 					const bool isOther =
 						tried.size() != target.curvature.size() || tried != target.curvature;
 					tried = target.curvature;
-					// As many as may be placed are worth a flow where they promise something.
+					// Cones at the limit may miss the spread by far: they are laid out only if they promise less.
 					return isOther &&
 						   (!atLimit || (target.expected && target.expected->total() < cost()));
 				});

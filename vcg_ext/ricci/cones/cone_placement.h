@@ -74,7 +74,7 @@ struct PlacedCones
 	/// Length of the seams that are to be expected, and of those without cones, in units of the square
 	/// root of the area.
 	double seams = 0.0, seamsWithout = 0.0;
-	bool atLimit = false; ///< they are as many as may be placed
+	bool atLimit = false; ///< a search on the surface itself could place no more
 
 	/// What a map with them is expected to cost.
 	MapCost expectation() const { return {expectedEnergy(distortion), seams}; }

@@ -15,8 +15,8 @@ namespace ricci {
 
 namespace {
 
-/// How far a vertex may be from the image of another, in medians of the triangles' shortest sides, as vertices of needles lie
-/// no farther apart: less than a person would see, and far more than the rounding of coordinates.
+/// How far a vertex may be from the image of another, in medians of the triangles' shortest sides: less than a person would
+/// see, and far more than the rounding of coordinates. The long sides of needles do not tell how far vertices are apart.
 constexpr double kMirrorNoise = 1e-3;
 
 /// Share of the vertices that may have no image: models have small parts on one side only.
