@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <complex>
+#include <limits>
 #include <vector>
 
 namespace ricci::testing {
@@ -202,11 +203,12 @@ TEST(FromLengths, WhatNoSurfaceHasIsRefused)
 	EXPECT_EQ(problem(unequal), InvalidMesh::UnequalSides);
 	EXPECT_EQ(problem({}), InvalidMesh::ArrayLength);
 	EXPECT_EQ(problem(Lengths(right.begin(), right.end() - 1)), InvalidMesh::ArrayLength);
-	EXPECT_EQ(
-		problemOf<InvalidMesh>([&] {
-			flattenFromLengths({{0, 1, 2000000000}}, {{1, 1, 1}});
-		}),
-		InvalidMesh::DamagedFaces);
+	for (const int number : {2000000000, std::numeric_limits<int>::max()})
+		EXPECT_EQ(
+			problemOf<InvalidMesh>([&] {
+				flattenFromLengths({{0, 1, number}}, {{1, 1, 1}});
+			}),
+			InvalidMesh::DamagedFaces);
 	EXPECT_EQ(problemOf<InvalidMesh>([&] { flattenFromLengths({}, {}); }), InvalidMesh::Empty);
 }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -123,7 +124,8 @@ bool hasShape(const Kind& kind, const ricci_array& array)
 
 unsigned char colour(double value)
 {
-	return static_cast<unsigned char>(std::clamp(std::round(value), 0.0, 255.0));
+	return static_cast<unsigned char>(
+		std::fmin(std::fmax(std::round(value), 0.0), 255.0)); // NaN: 0
 }
 
 class Listener : public ricci::Progress
@@ -438,8 +440,10 @@ void LibraryRun::fill(MeshDocument& document) const
 	};
 	each("selected_vertices", m.vert, 1, select);
 	each("selected_faces", m.face, 1, select);
+	std::map<double, int> parts;
 	each("part", m.vert, 1, [&](CVertexO&, const Array& a, std::size_t i) {
-		model.parts.push_back(static_cast<int>(a[i]));
+		const auto [part, isNew] = parts.try_emplace(a[i], static_cast<int>(parts.size()));
+		model.parts.push_back(part->second);
 	});
 	each("quality", m.vert, 1, [](CVertexO& v, const Array& a, std::size_t i) { v.Q() = a[i]; });
 	each("uv", m.face, 6, [](CFaceO& f, const Array& a, std::size_t i) {

@@ -108,6 +108,10 @@ TEST(MakeSeamless, CostsLittleOfTheAngles)
 	EXPECT_FALSE(before.report.holonomyError);
 	EXPECT_GT(seamError(mesh, before), 0.01);
 	EXPECT_LT(after.report.qcAreaMean - 1.0, 1.5 * (before.report.qcAreaMean - 1.0));
+	// What is expected of the cones is said again once they have moved, with the seams to their new places.
+	EXPECT_GT(after.notes.size(), before.notes.size());
+	for (const std::string& note : after.notes)
+		EXPECT_EQ(note.find("seams 0 "), std::string::npos) << note;
 }
 
 /// A boundary that is free; one that is prescribed takes the rest of the curvature, and may be turned anyhow.

@@ -242,6 +242,23 @@ TEST(Library, TakesNumbersOfAnyType)
 	EXPECT_EQ(run.execute().everything(), CRun(mesh).execute().everything());
 }
 
+/// Two triangles whose sides lie on each other, joined where they are of one part.
+TEST(Library, TellsPartsByAnyNumbers)
+{
+	const std::vector<double> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+	const std::vector<int32_t> corners{0, 1, 2, 3, 4, 5};
+	for (const int64_t first : {int64_t(-7), int64_t(3000000000)})
+		for (const int64_t second : {first, int64_t(5000000000)}) {
+			CRun run;
+			run.set("vertices", positions, {6, 3}).set("faces", corners, {2, 3});
+			run.set("part", std::vector<int64_t>{first, first, first, second, second, second}, {6});
+			run.with("join_vertices", "Always").execute();
+			EXPECT_EQ(
+				run.output<int32_t>("results.joined_edges"),
+				std::vector<int32_t>(1, first == second ? 1 : 0));
+		}
+}
+
 TEST(Library, RunsAgainWithOtherParameters)
 {
 	const SurfaceMesh mesh = rectangle(4, 4, 1, 1);

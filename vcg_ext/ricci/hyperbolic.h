@@ -32,8 +32,10 @@ struct DiskCoordinates
 	/// chart as the plane has them, and parts of a disk that is divided lie where their motion takes them.
 	std::vector<FuchsianGroup> groups;
 
-	double relationError = 0.0; ///< how far the relation of the generators is from the identity
-	int flippedFaces = 0;       ///< reversed or without area, once coordinates are rounded to float
+	/// The largest angle (radians) or hyperbolic length by which the layout does not close up round a vertex or
+	/// along a seam.
+	double relationError = 0.0;
+	int flippedFaces = 0;     ///< reversed or without area, once coordinates are rounded to float
 	int overlappingFaces = 0; ///< that cover a part of the disk together with another one, likewise
 	int unequalSeams = 0;     ///< edges whose two sides differ in length by more than rounding
 };

@@ -207,7 +207,7 @@ struct HyperbolicTargetOptions
 	HyperbolicTarget target = HyperbolicTarget::HyperbolicMetric;
 
 	/// Total angle at each cone of SelectedCones, in radians.
-	double coneAngle = 3.14159265358979323846;
+	double coneAngle = kPi;
 
 	/// Fix u on the boundary; the curvature then is prescribed inside only. The boundary's circles
 	/// keep the radii that they have where the surface is scaled to the area 2 pi max(1, |chi|), so

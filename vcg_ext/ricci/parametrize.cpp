@@ -298,7 +298,8 @@ void checkOptions(const Options& options)
 		throw InvalidOption(InvalidOption::ConeCount, options.cones.count);
 	if (!(options.cones.distortion >= 0.0 && std::isfinite(options.cones.distortion)))
 		throw InvalidOption(InvalidOption::ConeDistortion, options.cones.distortion);
-	checkChartMargin(options.chartMargin);
+	if (!(options.chartMargin >= 0.0 && options.chartMargin <= kMaxChartMargin))
+		throw InvalidOption(InvalidOption::ChartMargin, options.chartMargin, kMaxChartMargin);
 	if (!(options.tileSide >= 0.0 && std::isfinite(options.tileSide)))
 		throw InvalidOption(InvalidOption::TileSide, options.tileSide);
 	if (options.tileSide > 0.0 && !options.normalizeUV)
@@ -317,7 +318,6 @@ void checkOptions(const HyperbolicOptions& options)
 
 WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
 {
-	checkOptions(options);
 	requirePositions(mesh, input, options);
 	const Task part(0.0, kMapped);
 	WholeMap whole = open(mesh, input, options, OneSidedCut::Shortest);
@@ -329,6 +329,8 @@ WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const 
 	advance(1.0, "Layout done");
 	return whole;
 }
+
+namespace {
 
 /// What the map that a mesh has is kept with.
 /// \throw InvalidOption NoMap
@@ -351,6 +353,8 @@ Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 	options.join = JoinSplitVertices::Always; // a chart goes on where the map does not jump
 	return options;
 }
+
+} // namespace
 
 Parametrization
 parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& asked)

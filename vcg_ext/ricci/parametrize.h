@@ -7,8 +7,6 @@
 #include "options.h"
 #include "progress.h"
 
-#include <vector>
-
 namespace ricci {
 
 /// Checks the options of a run by themselves, without a mesh. The functions below call it.

@@ -23,7 +23,7 @@ surfaceOf(const std::vector<Triangle>& triangles, const std::vector<std::array<d
 	// Numbers that no face has: more vertices than corners make no surface, and need no room.
 	const std::size_t most = 3 * triangles.size();
 	SurfaceMesh mesh;
-	mesh.positions.resize(std::min(most, static_cast<std::size_t>(last + 1)));
+	mesh.positions.resize(std::min(most, static_cast<std::size_t>(last) + 1));
 	mesh.triangles = triangles;
 	mesh.lengths = lengths;
 	if (lengths.empty() && !triangles.empty())

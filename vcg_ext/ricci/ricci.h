@@ -49,6 +49,7 @@ TextureCoordinates flatten(
 	Progress* progress = nullptr);
 
 /// The same of a surface that no positions are known of: its triangles are those of the plane with these sides.
+/// \param triangles numbers of vertices are below three times that of triangles
 /// \param lengths [face] of the sides from corner 0 to 1, 1 to 2 and 2 to 0. Both faces of an edge have the same.
 /// \throw also InvalidMesh NoTriangle, UnequalSides; InvalidOption WithoutPositions for what is chosen by looking at
 /// positions: the corners of Rectangle, EdgeSwaps, CommonRefinement, seamHiding, sharpAngle, QuarterTurns

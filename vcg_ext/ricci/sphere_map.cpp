@@ -254,7 +254,13 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	const Crew crew;
 	if (!mesh.lengths.empty())
 		throw InvalidOption(InvalidOption::WithoutPositions);
-	const OpenedMesh opened = openMesh(mesh, OneSidedCut::Shortest, options.join);
+	Options flow;
+	flow.epsilon = options.epsilon;
+	flow.join = options.join;
+	flow.cones.onlyWhereNeeded = true;
+	flow.finish = Finish::None;
+	checkOptions(flow);
+	const OpenedMesh opened = openMesh(mesh, OneSidedCut::Shortest, flow.join);
 	const std::vector<Component> components = splitIntoComponents(opened);
 	const Component& c = components.front();
 	if (components.size() > 1)
@@ -266,11 +272,6 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	const Vertex pole = choosePole(c);
 	const Component disk = splitIntoComponents(openMesh(punctured(c, pole))).front();
 	requireMemory(disk.triangles.size(), disk.triangles.size(), false);
-	Options flow;
-	flow.epsilon = options.epsilon;
-	flow.cones.onlyWhereNeeded = true;
-	flow.finish = Finish::None;
-	checkOptions(flow);
 	const Parametrization flat = [&] {
 		const Task quiet(0.0, kMapped, true); // the log would speak of the punctured surface
 		return flattenToPlane(disk, flow);

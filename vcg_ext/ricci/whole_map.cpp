@@ -305,8 +305,6 @@ Report& Report::operator+=(const Report& next)
 			 &Report::cappedHoles,
 			 &Report::cones,
 			 &Report::seamEdges,
-			 &Report::overlappingCharts,
-			 &Report::overlappingFaces,
 			 &Report::overlapCuts})
 		this->*count += next.*count;
 	seamLength += next.seamLength;

@@ -33,11 +33,11 @@ void dropInside(std::vector<Point2>& points)
 				polygon[k] = p;
 			}
 	}
-	// A polygon that is seen counter-clockwise on all sides goes round.
 	// More than the rounding error of a doubled area.
 	const double minArea = std::max(
 		64.0 * std::numeric_limits<double>::epsilon() * largest * largest,
 		std::numeric_limits<double>::min());
+	// Of a convex polygon whose corners go round counter-clockwise.
 	const auto isInside = [&](const Point2& p) {
 		for (std::size_t k = 0; k < 8; ++k) {
 			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];

@@ -7,7 +7,6 @@ namespace ricci {
 
 namespace {
 
-/// "1 face", "12 faces".
 std::string number(double x)
 {
 	return numberText(x, 9);

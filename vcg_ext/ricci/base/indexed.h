@@ -157,10 +157,8 @@ public:
 		else
 			m_values.insert(m_values.end(), values.begin(), values.end());
 	}
-	void pop_back() { m_values.pop_back(); }
 	void swap(IndexedArray& other) { m_values.swap(other.m_values); }
 
-	T& front() { return m_values.front(); }
 	const T& front() const { return m_values.front(); }
 	T& back() { return m_values.back(); }
 	const T& back() const { return m_values.back(); }

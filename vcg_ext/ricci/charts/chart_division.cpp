@@ -16,8 +16,6 @@ namespace ricci {
 
 namespace {
 
-using Parts = std::vector<std::vector<int>>; // triangles of each
-
 /// What a triangle is for a cut.
 enum Terminal : char { kNoTerminal, kSource, kSink };
 

@@ -17,6 +17,9 @@ namespace ricci {
 /// Two triangles of a chart, the lower number first.
 using TrianglePair = std::array<int, 2>;
 
+/// Parts of a chart: the triangles of each.
+using Parts = std::vector<std::vector<int>>;
+
 /// Boxes of triangles, in their order.
 BoxTree boxTreeOf(const Array<Triangle2>& triangles);
 

@@ -2,7 +2,6 @@
 #include "pack.h"
 
 #include "../base/numbers.h"
-#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "chart_overlap.h"

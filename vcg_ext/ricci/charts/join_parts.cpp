@@ -26,8 +26,6 @@ constexpr double kOneMotion = 1e-4;
 /// A part that has this share of the largest is not a crumb: where there are very many parts, all are small.
 constexpr double kCrumbOfLargest = 0.25;
 
-using Parts = std::vector<std::vector<int>>; // triangles of each
-
 /// What parts are left: the triangles of each in increasing order, the parts by their first.
 Parts partsOf(const MovableParts& movable)
 {

@@ -31,7 +31,7 @@ class MovableParts
 {
 public:
 	/// \param parts triangles
-	MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts) :
+	MovableParts(const FlatMesh& chart, const Parts& parts) :
 			m_chart(chart), m_plane(chart.corners()), m_isProper(chart.size()),
 			m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
 			m_next(chart.size(), -1)

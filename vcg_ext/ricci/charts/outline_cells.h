@@ -255,7 +255,6 @@ public:
 	{
 	}
 
-	int side() const { return m_side; }
 	long long work() const { return m_work; }
 
 	void clear()

@@ -7,7 +7,6 @@
 #include "../options.h"
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <utility>
 #include <vector>

@@ -361,12 +361,6 @@ private:
 
 } // namespace
 
-void checkChartMargin(double margin)
-{
-	if (!(margin >= 0.0 && margin <= kMaxChartMargin))
-		throw InvalidOption(InvalidOption::ChartMargin, margin, kMaxChartMargin);
-}
-
 bool marginsMayFit(std::size_t charts, double margin)
 {
 	const double free = 1.0 - margin;
@@ -375,7 +369,6 @@ bool marginsMayFit(std::size_t charts, double margin)
 
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns, bool mayCut)
 {
-	checkChartMargin(options.chartMargin);
 	if (options.tileSide > 0.0) {
 		Tiles tiles(options, turns, map);
 		tiles.cutToFit(mayCut);

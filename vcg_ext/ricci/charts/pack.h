@@ -13,10 +13,6 @@
 
 namespace ricci {
 
-/// packCharts() calls it; a caller may do so before a long run.
-/// \throw InvalidOption ChartMargin unless \p margin is between 0 and kMaxChartMargin
-void checkChartMargin(double margin);
-
 /// False if so many charts of any extent cannot keep \p margin, by the area of the margins alone.
 bool marginsMayFit(std::size_t charts, double margin);
 

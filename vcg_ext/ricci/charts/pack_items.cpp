@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 #include <utility>
 
 namespace ricci {
@@ -121,25 +120,6 @@ std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding)
 	return best.second;
 }
 
-Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
-{
-	const auto hasNegativeArea = [&](int f) { return doubledArea(mesh.at(f)) < 0.0; };
-	const bool hasFlipped = std::any_of(triangles.begin(), triangles.end(), hasNegativeArea);
-	const auto isFlipped = [&](int f) { return hasFlipped && hasNegativeArea(f); };
-	Outline outline;
-	for (const int f : triangles)
-		for (const Corner side : cornersOf(f)) {
-			const Corner other = mesh.joined(side);
-			if (other.isValid() && isFlipped(f) == isFlipped(other.face()))
-				continue;
-			const auto [a, b] = mesh.ends(side);
-			if (a != b)
-				outline.push_back(isFlipped(f) ? std::array{b, a} : std::array{a, b});
-		}
-	std::sort(outline.begin(), outline.end());
-	return outline;
-}
-
 std::complex<double> uprightTurn(const Outline& outline)
 {
 	constexpr int kDegrees = 90; // directions modulo a right angle
@@ -190,6 +170,27 @@ void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
 }
 
 namespace {
+
+/// The sides of a chart's triangles, each taken counter-clockwise, except for two that are joined and run
+/// opposite ways. A point off them is covered by as many triangles as they go round it.
+Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
+{
+	const auto hasNegativeArea = [&](int f) { return doubledArea(mesh.at(f)) < 0.0; };
+	const bool hasFlipped = std::any_of(triangles.begin(), triangles.end(), hasNegativeArea);
+	const auto isFlipped = [&](int f) { return hasFlipped && hasNegativeArea(f); };
+	Outline outline;
+	for (const int f : triangles)
+		for (const Corner side : cornersOf(f)) {
+			const Corner other = mesh.joined(side);
+			if (other.isValid() && isFlipped(f) == isFlipped(other.face()))
+				continue;
+			const auto [a, b] = mesh.ends(side);
+			if (a != b)
+				outline.push_back(isFlipped(f) ? std::array{b, a} : std::array{a, b});
+		}
+	std::sort(outline.begin(), outline.end());
+	return outline;
+}
 
 /// \param triangles [chart]
 /// \return [chart] 1 for those that have an uprightTurn(), and now lie along the axes

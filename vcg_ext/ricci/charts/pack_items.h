@@ -19,10 +19,6 @@ namespace ricci {
 /// no width or no height.
 std::vector<Point2> sideBySide(std::vector<Box2> boxes, double padding);
 
-/// The sides of a chart's triangles, each taken counter-clockwise, except for two that are joined and run
-/// opposite ways. A point off them is covered by as many triangles as they go round it.
-Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
-
 /// The turn that lays a chart along the axes whose outline runs in two perpendicular directions mostly: more than half
 /// its length, to a degree. Else 0.
 std::complex<double> uprightTurn(const Outline& outline);
@@ -56,6 +52,7 @@ struct PackSquare
 	double longestBox;  ///< of small charts
 };
 
+/// What is laid out in the square: each of the largest charts, and boxes of small ones.
 struct PackItems
 {
 	std::vector<Outline> outlines;   ///< [item]

@@ -18,8 +18,6 @@ namespace ricci {
 
 namespace {
 
-using Parts = std::vector<std::vector<int>>; // triangles of each
-
 /// Moves each of the charts, which have points of their own, to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
 void settle(const std::vector<int>& charts, bool turns, Parametrization& map)

@@ -46,7 +46,7 @@ constexpr double kCutFrom[] = {0.1, 0.4};
 /// A cut that divides a chart.
 struct ChartCut
 {
-	std::vector<std::vector<int>> pieces; ///< triangles of each
+	Parts pieces;
 	int edges = 0;
 	double length = 0.0; ///< on the surface
 	int chart = -1;      ///< its number
@@ -93,7 +93,7 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 /// all pairs are listed is first halved, across its middle.
 /// \param overlaps of chart.corners()
 /// \return the triangles of each connected part, in increasing order, the parts by their first
-std::vector<std::vector<int>> divideChart(const FlatMesh& chart, const OverlapSearch& overlaps);
+Parts divideChart(const FlatMesh& chart, const OverlapSearch& overlaps);
 
 /// Share of the area in space below which a part is joined to another wherever possible.
 constexpr double kCrumb = 0.01;
@@ -106,8 +106,7 @@ constexpr double kCrumb = 0.01;
 /// \param chart its points are moved and renumbered
 /// \param parts triangles of each, connected; none covers itself
 /// \return the parts that are left: their triangles in increasing order, the parts by their first
-std::vector<std::vector<int>>
-joinParts(FlatMesh& chart, const std::vector<std::vector<int>>& parts);
+Parts joinParts(FlatMesh& chart, const Parts& parts);
 
 } // namespace ricci
 

@@ -2,15 +2,12 @@
 #include "linear_flow.h"
 
 #include "../base/tolerances.h"
-#include "../error.h"
 #include "../flow/curvature_map.h"
 #include "../metric/circle_packing.h"
 #include "../metric/geometry.h"
 #include "../numerics/aggregation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace ricci {

@@ -90,7 +90,7 @@ public:
 	{
 		m_radius = radius * std::sqrt(m_area);
 		for (const Vertex v : m_units.indices())
-			if (m_sites.isAllowed(v) && !flow.target.fixed[v])
+			if (m_sites.isAllowed(v))
 				m_units[v] = static_cast<int>(std::lround(flow.target.curvature[v] / kQuarterTurn));
 		measure();
 	}
@@ -122,6 +122,7 @@ public:
 				placed.vertices.push_back(v);
 				placed.curvatures.push_back(kQuarterTurn * m_units[v]);
 			}
+		placed.seams = SeamTree(m_sites, placed.vertices).length();
 		return placed;
 	}
 
@@ -304,9 +305,7 @@ seamlessCost(const EmbeddedSurface& surface, const FlowResult& flow, const Holon
 	const double spread = areaChange(surface, flowFactor(flow)).spread; // of 2 u
 	cost.areas = 0.25 * spread * spread;
 	for (const Vertex v : flow.target.curvature.indices())
-		cost.cones += flow.target.fixed[v] || surface.topology.boundary[v]
-						  ? 0
-						  : flow.target.curvature[v] != 0.0;
+		cost.cones += !surface.topology.boundary[v] && flow.target.curvature[v] != 0.0;
 	return cost;
 }
 

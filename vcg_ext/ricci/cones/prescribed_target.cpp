@@ -83,7 +83,7 @@ void checkFreeBoundary(const Topology& topology, const Target& target)
 	for (const Vertex v : topology.boundary.indices()) {
 		if (topology.boundary[v])
 			++boundaryCount;
-		else if (!target.fixed[v])
+		else
 			insideSum += target.curvature[v];
 	}
 	const double bound = topology.type.totalCurvature() - kPi * static_cast<double>(boundaryCount);

@@ -429,8 +429,6 @@ Holonomy holonomy(const FlowResult& flow)
 
 int roundHolonomy(FlowResult& flow, double epsilon)
 {
-	if (flow.doubled)
-		return 0;
 	Metric metric = metricOf(flow);
 	const double before = metric.error();
 	int steps = 0; // of Newton's method, for the metrics

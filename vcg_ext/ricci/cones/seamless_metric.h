@@ -3,7 +3,6 @@
 #ifndef RICCI_SEAMLESS_METRIC_H
 #define RICCI_SEAMLESS_METRIC_H
 
-#include "../flow/curvature_map.h"
 #include "../flow/ricci_flow.h"
 #include "../mesh/elements.h"
 #include "../mesh/triangulation.h"

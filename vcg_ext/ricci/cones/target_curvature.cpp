@@ -22,11 +22,6 @@ namespace {
 /// By so much less, energy and price of seams are not worth another flow.
 constexpr double kWorthAFlow = 0.03;
 
-std::string number(double x)
-{
-	return numberText(x, 9);
-}
-
 /// What any target has to fulfil.
 void check(const EmbeddedSurface& surface, const Target& target)
 {
@@ -118,7 +113,7 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 		onBoundary |= topology.boundary[v] != 0;
 	}
 	target.notes.push_back(
-		std::to_string(cones.size()) + " cones of curvature " + number(share) + " each.");
+		std::to_string(cones.size()) + " cones of curvature " + numberText(share, 9) + " each.");
 	if (topology.type.isClosed() || !request.freeBoundary)
 		return;
 	if (!onBoundary)
@@ -193,7 +188,7 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 	std::string list;
 	for (const auto& [vertex, curvature] : named)
 		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
-				number(curvature / kPi) + ")";
+				numberText(curvature / kPi, 9) + ")";
 	return std::to_string(cones.vertices.size()) +
 		   " cones placed: " + describe(cones.expectation()) + ", area distortion " +
 		   numberText(cones.distortion, 3) + " (spread); vertex (curvature / pi):" + list + ".";

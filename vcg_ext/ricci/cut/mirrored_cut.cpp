@@ -5,7 +5,6 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../error.h"
 
 #include <algorithm>
 #include <utility>

@@ -166,7 +166,6 @@ public:
 	/// Its lower triangle.
 	const Matrix& matrix() const { return m_matrix; }
 	SparseCholesky& cholesky() { return m_cholesky; }
-	const SparseCholesky& cholesky() const { return m_cholesky; }
 
 	/// Fills the matrix at the state of \p map, for a new pattern where the connectivity has another
 	/// revision than at the last call. The factor stays.

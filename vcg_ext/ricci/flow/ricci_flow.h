@@ -113,7 +113,7 @@ using ChooseTarget = std::function<Target(const EmbeddedSurface&, InitialPacking
 /// edges are split, after which the flow starts again.
 /// \param domain receives that of the component with the boundary edges split, before any swap
 /// \param states those before each Newton step of all starts are appended
-/// \return its iterations are those of all starts, the triangulation of its metric is swapped
+/// \return its iterations are those of the last start, the triangulation of its metric is swapped
 /// \throw NotConverged, what \p chooseTarget throws
 FlowResult flowWithEdgeSwaps(
 	const Component& component,

@@ -198,7 +198,7 @@ FlowResult flowWithEdgeSwaps(
 {
 	SplitMesh mesh(component);
 	FlowResult flow;
-	int steps = 0, swaps = 0;
+	int swaps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
 		domain = {};
 		EmbeddedSurface& surface = domain.surface;
@@ -214,7 +214,6 @@ FlowResult flowWithEdgeSwaps(
 			if (!run.solve())
 				throw run.failure();
 			flow = run.result();
-			steps += flow.iterations;
 		}
 		catch (NotConverged& error) {
 			error.swaps = swapper.swaps();
@@ -222,7 +221,6 @@ FlowResult flowWithEdgeSwaps(
 			if (error.problem == NotConverged::CircleUnsettled ||
 				swapper.boundaryEdgesToSplit().empty())
 				throw;
-			steps += error.iterations;
 		}
 		swaps += swapper.swaps();
 		// Also where the target is reached: a swap beside the broken triangle may have mended it.
@@ -232,7 +230,6 @@ FlowResult flowWithEdgeSwaps(
 				std::to_string(mesh.splits()) + " boundary edges split; the flow starts again.");
 			continue;
 		}
-		flow.iterations = steps;
 		flow.swaps = swaps;
 		flow.splits = mesh.splits();
 		if (flow.swaps > 0 || flow.splits > 0)

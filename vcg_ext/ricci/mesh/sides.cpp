@@ -72,8 +72,7 @@ double angleAt(const Point3& a, const Point3& b, const Point3& c)
 
 enum class At : char { Between, Crease, Boundary };
 
-} // namespace
-
+/// [triangle] Normals of length 1; 0 where a triangle is too thin to have one (kThinTriangle).
 Array<Point3>
 normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
 {
@@ -83,6 +82,8 @@ normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& tri
 			positions[positionOf(t[0])], positions[positionOf(t[1])], positions[positionOf(t[2])]));
 	return normals;
 }
+
+} // namespace
 
 Array<Point3> normalsOf(
 	const std::vector<Point3>& positions,

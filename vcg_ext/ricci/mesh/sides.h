@@ -36,13 +36,9 @@ private:
 	CornerArray<Corner> m_across; // [side]
 };
 
-/// [triangle] Normals of length 1; 0 where a triangle is too thin to have one (kThinTriangle).
-Array<Point3>
-normalsOf(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
-
-/// The same, but a thin triangle lies in the plane of the triangle across its longest side, or if that has none, of
-/// another beside it: so a crease that passes it runs along one of its sides. 0 where none is connected to a triangle
-/// with a normal.
+/// [triangle] Normals of length 1. A triangle too thin to have one (kThinTriangle) lies in the plane of the triangle
+/// across its longest side, or if that has none, of another beside it: so a crease that passes it runs along one of
+/// its sides. 0 where none is connected to a triangle with a normal.
 /// \param across [side] the other side of the edge, or none; it starts at the same vertex if its triangle has the
 /// opposite orientation
 Array<Point3> normalsOf(

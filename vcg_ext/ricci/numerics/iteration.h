@@ -23,16 +23,16 @@ struct LineSearch
 	double shortest;                                 ///< the search fails below
 	double minShortening = 0.1, maxShortening = 0.5; ///< factors from one length to the next
 
-	/// \param length of the first step
+	/// The first step has the length 1.
 	/// \param slope of the function at length 0, negative
 	/// \param now its value there
 	/// \param valueAt valueAt(length); where it is not finite, the step is shortened by maxShortening
 	/// \param accepts accepts(), asked where the value is low enough
 	/// \return the length, or 0
 	template<class Value, class Accepts>
-	double
-	run(double length, double slope, double now, const Value& valueAt, const Accepts& accepts) const
+	double run(double slope, double now, const Value& valueAt, const Accepts& accepts) const
 	{
+		double length = 1.0;
 		while (length >= shortest) {
 			const double value = valueAt(length), promised = slope * length;
 			if (value <= now + kDecrease * promised && accepts())
@@ -45,9 +45,9 @@ struct LineSearch
 	}
 
 	template<class Value>
-	double run(double length, double slope, double now, const Value& valueAt) const
+	double run(double slope, double now, const Value& valueAt) const
 	{
-		return run(length, slope, now, valueAt, [] { return true; });
+		return run(slope, now, valueAt, [] { return true; });
 	}
 };
 
@@ -105,9 +105,9 @@ public:
 	static double dot(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b)
 	{
 		// std::complex is two doubles.
-		using Parts = Eigen::Map<const Eigen::VectorXd>;
-		return Parts(reinterpret_cast<const double*>(a.data()), 2 * a.size())
-			.dot(Parts(reinterpret_cast<const double*>(b.data()), 2 * b.size()));
+		using Reals = Eigen::Map<const Eigen::VectorXd>;
+		return Reals(reinterpret_cast<const double*>(a.data()), 2 * a.size())
+			.dot(Reals(reinterpret_cast<const double*>(b.data()), 2 * b.size()));
 	}
 
 private:

@@ -85,9 +85,8 @@ struct SparseCholesky::Implementation
 	cholmod_factor* factor = nullptr;
 	double flops = 0.0, entries = 0.0;
 	SupernodalSolver solver;
-	const int nestedDissectionFrom;
 
-	explicit Implementation(int dissectionFrom) : nestedDissectionFrom(dissectionFrom)
+	Implementation()
 	{
 		cholmod_l_start(&common);
 		common.nmethods = 1; // no search through several orderings
@@ -120,8 +119,7 @@ struct SparseCholesky::Implementation
 		}
 	}
 
-	/// \return whether there is a factor; if not, common.status says why
-	bool tryToAnalyze(const Matrix& pattern, int ordering, int postorder)
+	void analyze(const Matrix& pattern, int ordering, int postorder)
 	{
 		View a(pattern);
 		cholmod_l_free_factor(&factor, &common);
@@ -131,25 +129,16 @@ struct SparseCholesky::Implementation
 		flops = common.fl;
 		entries = common.lnz;
 		if (factor == nullptr)
-			return false;
+			fail(pattern);
 		cholmod_l_free_work(&common);
 		solver.plan(*factor);
-		return true;
-	}
-
-	void analyze(const Matrix& pattern, int ordering, int postorder)
-	{
-		if (!tryToAnalyze(pattern, ordering, postorder))
-			fail(pattern);
 	}
 
 	/// A good order of elimination: [position] unknown.
 	std::vector<int> order(const Matrix& pattern)
 	{
 		const OneThread oneThread;
-		// METIS may not be there, or not number so many edges.
-		if (pattern.rows() < nestedDissectionFrom || !tryToAnalyze(pattern, CHOLMOD_METIS, 1))
-			analyze(pattern, CHOLMOD_AMD, 1);
+		analyze(pattern, CHOLMOD_AMD, 1);
 		// The factor is that of the renumbered matrix in its natural order.
 		auto* permutation = static_cast<Long*>(factor->Perm);
 		std::vector<int> result(factor->n);
@@ -208,8 +197,6 @@ struct SparseCholesky::Implementation
 	Solver solver;
 	double flops = 0.0, entries = 0.0;
 
-	explicit Implementation(int /*nestedDissectionFrom*/) {} // AMD is the only order here
-
 	std::vector<int> order(const Matrix& pattern)
 	{
 		Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
@@ -259,8 +246,7 @@ const char* SparseCholesky::name()
 
 #endif
 
-SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
-		m_implementation(std::make_unique<Implementation>(nestedDissectionFrom))
+SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
 {
 }
 

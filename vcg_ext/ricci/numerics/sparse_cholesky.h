@@ -31,19 +31,13 @@ struct EliminationOrder
 /// RICCI_STATIC_CHOLMOD its static library, with cholmod_blas.cpp and without METIS), Eigen's
 /// SimplicialLDLT otherwise.
 ///
-/// Unknowns are eliminated in an order that keeps the factor sparse: that of approximate minimum degree,
-/// or of nested dissection where the factor is large and CHOLMOD has METIS.
+/// Unknowns are eliminated in an order that keeps the factor sparse, that of approximate minimum degree.
 class SparseCholesky
 {
 public:
 	using Matrix = Eigen::SparseMatrix<double>;
 
-	/// From this number of unknowns on the order is that of nested dissection: the factor is smaller by a third
-	/// and made in less than half the time by a plain BLAS, but takes 15 % longer with its order by a fast one.
-	static constexpr int kNestedDissectionFrom = 1000000;
-
-	/// \param nestedDissectionFrom another number, for tests
-	explicit SparseCholesky(int nestedDissectionFrom = kNestedDissectionFrom);
+	SparseCholesky();
 	~SparseCholesky();
 	SparseCholesky(const SparseCholesky&) = delete;
 	SparseCholesky& operator=(const SparseCholesky&) = delete;

@@ -55,7 +55,6 @@ public:
 	{
 		Repair result;
 		const std::vector<int> bad = badTriangles(m_flat, m_rules.validity);
-		result.bad = static_cast<int>(bad.size());
 		result.moved.assign(m_flat.place.size(), 0);
 		std::int64_t work = limit.left();
 		const std::int64_t before = work;

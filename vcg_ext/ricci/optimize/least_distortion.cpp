@@ -194,7 +194,7 @@ bool leastDistortion(FlatMesh& flat, const PointGroups& groups, bool countsFlipp
 			return 0.0;
 		double next = before;
 		const double length = LineSearch{kMinStep}.run(
-			1.0, slope, before, [&](double trialLength) { return next = valueAt(trialLength); });
+			slope, before, [&](double trialLength) { return next = valueAt(trialLength); });
 		if (length == 0.0)
 			return 0.0;
 		value = next;

@@ -59,7 +59,6 @@ bool leastStretch(FlatMesh& flat, const PointGroups& groups)
 			return 0.0;
 		double next = value;
 		const double length = LineSearch{kMinStretchStep}.run(
-			1.0,
 			direction.dot(gradient),
 			value,
 			[&](double step) {

@@ -3,7 +3,6 @@
 #define RICCI_POINT_GROUPS_H
 
 #include "../layout/flat_mesh.h"
-#include "../mesh/elements.h"
 
 #include <complex>
 #include <functional>

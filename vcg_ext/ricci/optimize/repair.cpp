@@ -118,7 +118,6 @@ private:
 			return false;
 		double next = value;
 		const double length = kHalving.run(
-			1.0,
 			m_step.dot(m_gradient),
 			value,
 			[&](double trial) {
@@ -404,7 +403,6 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 {
 	Repair result;
 	std::vector<int> bad = badTriangles(flat, rules.validity);
-	result.bad = result.left = static_cast<int>(bad.size());
 	if (bad.empty())
 		return result;
 	result.moved.assign(flat.place.size(), 0);
@@ -445,7 +443,8 @@ Repair repairInStages(
 	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit)
 {
 	Repair result;
-	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
+	result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
+	const bool wasValid = result.left == 0;
 	PointGroups groups;
 	Validity upright = rules.validity;
 	upright.height *= kFlat;
@@ -462,7 +461,7 @@ Repair repairInStages(
 		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, moves);
 		result.add(repair(flat, groups, rules, limit));
 	}
-	if (result.bad > 0 && rules.shapes == RestShapes::OfSurface)
+	if (!wasValid && rules.shapes == RestShapes::OfSurface)
 		easeStrained(flat, groups, rules, limit, result);
 	return result;
 }

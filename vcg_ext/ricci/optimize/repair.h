@@ -68,8 +68,7 @@ Untangled ease(const PatchProblem& problem, const Patch& patch, int maxSteps);
 struct Repair
 {
 	Array<char> moved;  ///< [point] 1 where the repair moved it; empty where nothing was to be done
-	int bad = 0;        ///< triangles that were not valid before
-	int left = 0;       ///< and after
+	int left = 0;       ///< triangles that are not valid after it
 	int endedEarly = 0; ///< of finishInPlane(): parts that the bound on their work has ended
 
 	int movedCount() const;

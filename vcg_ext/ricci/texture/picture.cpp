@@ -16,7 +16,7 @@ namespace {
 /// Rows or columns of one task.
 constexpr int kRows = 64, kColumns = 512;
 
-/// Rows from a texel to the nearest covered one of its column, which no picture is high enough for.
+/// Rows from a texel to the nearest covered one of its column where there is none.
 constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::max();
 
 /// [texel] that offset, of a tie the one above; kNone where the column has none.

@@ -197,6 +197,7 @@ inline Point2 pointOf(const Triangle2& t, const Point3& weights)
 /// Gives every texel that is not \p covered [texel] the samples of the nearest one that is; nothing
 /// where none is. Euclidean distance between middles, found exactly in time proportional to the texels
 /// [Felzenszwalb Huttenlocher 2012]. Needs 2 bytes for each texel.
+/// \pre the picture is less than 32767 texels high
 template<class Sample>
 void fillFromNearest(
 	const std::vector<char>& covered, const PictureView<Sample>& picture, int threads);

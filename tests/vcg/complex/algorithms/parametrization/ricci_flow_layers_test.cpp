@@ -147,6 +147,26 @@ TYPED_TEST(UniversalCover, APointOnTheSideOfTwoSquaresStaysInItsComponent)
 	}
 }
 
+TYPED_TEST(UniversalCover, SaysWhereCopiesAreLeftOut)
+{
+	const SurfaceMesh shape{std::vector<Point3>(3), {{0, 1, 2}}};
+	typename Flow<TypeParam>::Result r =
+		mapWith(flatMesh(shape, {Triangle2{Point2{0.4, 0.5}, Point2{0.6, 0.5}, Point2{0.5, 0.6}}}));
+	r.vertexQC.assign(3, 1.0);
+	const DiskIsometry step = DiskIsometry::translation(1.0);
+	r.charts[0].group.sides = {step, step.inverse()};
+	for (const int rings : {1, 1000}) {
+		TypeParam cover;
+		Listener listener;
+		withListener(listener, [&] {
+			vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, rings, 10000, cover);
+			return 0;
+		});
+		EXPECT_EQ(cover.fn < 1 + 2 * rings, rings == 1000);
+		EXPECT_EQ(listener.count("left out of the universal cover"), rings == 1000);
+	}
+}
+
 /// Of each face the copies that its component has, moved in doubles and rounded once.
 TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
 {

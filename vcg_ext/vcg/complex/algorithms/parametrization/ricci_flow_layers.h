@@ -125,6 +125,11 @@ public:
 		if (copies * faces > maxFaces)
 			throw ricci::InvalidOption(
 				ricci::InvalidOption::CoverTooLarge, double(rings), 0.0, maxFaces);
+		if (std::any_of(tilings.begin(), tilings.end(), [](const ricci::Tiling& tiling) {
+				return !tiling.complete;
+			}))
+			ricci::logLine("Copies too near to the circle to be told apart are left out of the "
+						   "universal cover.");
 		for (size_t copy = 0; copy < copies; ++copy) {
 			ricci::checkpoint();
 			AddCopy(points, r, tilings, copy, cover);
