@@ -236,6 +236,24 @@ TEST(DelaunayPacking, UnwindsANeedleOfManyTurns)
 		EXPECT_THROW(delaunayPacking({oneVertexTorus(), {1.0, length, 1.0}}, {}), InternalError);
 }
 
+/// Any triangulation is Delaunay; rounding must not make another one of it for ever.
+TEST(DelaunayPacking, EndsWhereAllVerticesLieOnACircle)
+{
+	const int n = 1000;
+	SurfaceMesh fan;
+	for (int i = 0; i < n; ++i)
+		fan.positions.push_back({std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n), 0.0});
+	for (int i = 1; i + 1 < n; ++i)
+		fan.triangles.push_back({0, i, i + 1});
+	const Triangulation t = glued(fan);
+	const auto start = delaunayPacking({t, edgeLengths(t, fan)}, {});
+	EXPECT_LT(start.flips.size(), std::size_t(10 * n));
+	EXPECT_NEAR(
+		euclideanArea(start.mesh.triangulation, start.mesh.lengths),
+		0.5 * n * std::sin(2 * kPi / n),
+		1e-9);
+}
+
 /// Sum of the two sides at the origin of h less the third.
 double excessAt(const Triangulation& t, const EdgeArray<double>& lengths, Halfedge h)
 {

@@ -18,8 +18,9 @@ namespace {
 /// it is the difference of.
 constexpr double kMinPivot = 1e-8;
 
-/// An inverse that leaves a larger share of the right-hand side, refined once, is computed again.
+/// An inverse that leaves a larger share of the right-hand side after so many refinements is computed again.
 constexpr double kMaxRest = 1e-11;
+constexpr int kMaxRefinements = 8;
 
 /// By this share the diagonal of G is raised where that does not help, either: cones that do the same are told
 /// apart by it.
@@ -273,9 +274,12 @@ Eigen::VectorXd ConeModel::unboundedMinimum()
 		if (attempt > 0 || m_now.inverse.rows() == 0)
 			invert();
 		const auto inverse = symmetric(m_now.inverse);
-		Eigen::VectorXd solution = inverse * rhs;
-		solution += inverse * (rhs - times(solution));
-		if (attempt == 2 || (rhs - times(solution)).norm() <= kMaxRest * rhs.norm())
+		Eigen::VectorXd solution = inverse * rhs, rest = rhs - times(solution);
+		for (int step = 0; step < kMaxRefinements && rest.norm() > kMaxRest * rhs.norm(); ++step) {
+			solution += inverse * rest;
+			rest = rhs - times(solution);
+		}
+		if (attempt == 2 || rest.norm() <= kMaxRest * rhs.norm())
 			return solution;
 	}
 }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace ricci {
@@ -26,6 +27,9 @@ constexpr double kRadiusShare = 0.5;
 
 /// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start again.
 constexpr double kShrink = 0.5;
+
+/// Of a length.
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 /// I - 1 on each edge, between \p lowest and \p highest.
 EdgeArray<double> distancesLessOne(
@@ -67,7 +71,7 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 	}
 	// Foot of the perpendicular bisector (radical axis) on the edge, from its first end.
 	const double foot = 0.5 * (l + (gi - gj) * (gi + gj) / l);
-	double sum = 0.0, magnitude = 0.0;
+	double sum = 0.0, error = 0.0;
 	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
 		const auto [along, height] = apexOver(mesh, h);
 		const double g = radii.empty() ? 0.0 : radii[t.apex(h)];
@@ -78,10 +82,13 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 		const double minus = 2 * along * own + g * g;
 		if (!(height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
 			return !(plus < minus);
-		sum += (plus - minus) / (2 * height);
-		magnitude += (plus + std::abs(minus)) / (2 * height);
+		const double centre = (plus - minus) / (2 * height);
+		sum += centre;
+		// Of the last operations; and of the lengths, which moves the apex by their quotient with the height as much.
+		error += kManyRoundings * (plus + std::abs(minus)) / (2 * height) +
+				 kRounding * (l * l + plus) / height * (1.0 + std::abs(centre) / height);
 	}
-	return sum >= -kManyRoundings * magnitude;
+	return sum >= -error;
 }
 
 /// Length of the other diagonal of the two plane triangles at edge \p e.
