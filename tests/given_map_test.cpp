@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps that meshes have: Automatic keeps one that is right unless it finds a better one without further seams, and
 // Charts::AsGiven only packs.
+#include "support/expect.h"
 #include "support/shapes.h"
 
 #include <ricci/error.h>
@@ -292,6 +293,12 @@ TEST(GivenMap, HasToBeThereToBePacked)
 	EXPECT_EQ(missing(mesh), 0u);
 	mesh.map[3].uv[1][0] = std::numeric_limits<double>::quiet_NaN();
 	EXPECT_EQ(missing(mesh), 1u);
+	for (const bool isLine : {false, true}) {
+		mesh = withMap(mesh, [&](const Point3& p) { return Point2{isLine ? p[0] : 0.0, 0.0}; });
+		EXPECT_EQ(
+			refusalOf<InvalidOption>([&] { parametrizeEuclidean(mesh, {}, packedOnly()); }).problem,
+			InvalidOption::MapWithoutArea);
+	}
 	mesh.map.pop_back();
 	EXPECT_THROW(parametrizeEuclidean(mesh, {}, {}), InvalidMesh);
 }

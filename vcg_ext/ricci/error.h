@@ -101,6 +101,7 @@ public:
 		SphereOfComponents, ///< count: components; the map to the sphere takes one
 		NotASphere,         ///< surface
 		NoMap,              ///< count: faces for which SurfaceMesh::map has no coordinates
+		MapWithoutArea,     ///< SurfaceMesh::map, to be kept, takes every face to a line or a point
 		CoverTooLarge       ///< value: rings; would need more than count faces
 	};
 

@@ -333,7 +333,7 @@ WholeMap chartsInPlane(const SurfaceMesh& mesh, const VertexInput& input, const 
 namespace {
 
 /// What the map that a mesh has is kept with.
-/// \throw InvalidOption NoMap
+/// \throw InvalidOption NoMap, MapWithoutArea
 Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 {
 	const auto isMissing = [](const MappedFace& face) {
@@ -346,6 +346,10 @@ Options optionsToKeep(const SurfaceMesh& mesh, const Options& asked)
 			0.0,
 			0.0,
 			mesh.map.empty() ? mesh.triangles.size() : static_cast<std::size_t>(missing));
+	if (std::all_of(mesh.map.begin(), mesh.map.end(), [](const MappedFace& face) {
+			return doubledArea(face.uv) == 0.0;
+		}))
+		throw InvalidOption(InvalidOption::MapWithoutArea);
 	Options options;
 	static_cast<PackOptions&>(options) = asked;
 	options.charts = Charts::AsGiven;

@@ -136,6 +136,8 @@ std::string words(const InvalidOption& e)
 			   e.surface.name();
 	case InvalidOption::NoMap:
 		return "The map to be kept has no coordinates for " + counted(e.count, "face", "faces");
+	case InvalidOption::MapWithoutArea:
+		return "The map to be kept takes every face to a line or a point";
 	case InvalidOption::CoverTooLarge:
 		return number(e.value) + " rings of the universal cover would need more than " +
 			   std::to_string(e.count) + " faces";
