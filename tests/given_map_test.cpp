@@ -275,6 +275,24 @@ TEST(GivenMap, KeepsIslandsWhoseVerticesAreSplit)
 	EXPECT_NEAR(most / least, 1.0, 1e-9);
 }
 
+/// Two turns of a spiral, drawn as they are seen from above and from below.
+TEST(GivenMap, CoversItselfAsOftenAsItsMirrorImage)
+{
+	SurfaceMesh spiral = rectangle(100, 3, 1, 1);
+	for (Point3& p : spiral.positions) {
+		const double turn = 4 * kPi * p[0], radius = 1.0 + p[1];
+		p = {radius * std::cos(turn), radius * std::sin(turn), 3.0 * p[0]};
+	}
+	const int faces = static_cast<int>(spiral.triangles.size());
+	for (const double side : {1.0, -1.0}) {
+		const auto draw = [&](const Point3& p) { return Point2{side * p[0], p[1]}; };
+		const Report report = parametrizeEuclidean(withMap(spiral, draw), {}, packedOnly()).report;
+		EXPECT_EQ(report.overlappingFaces, faces);
+		EXPECT_EQ(report.overlappingCharts, 1);
+		EXPECT_EQ(report.flippedFaces % faces, 0);
+	}
+}
+
 TEST(GivenMap, HasToBeThereToBePacked)
 {
 	const auto missing = [](const SurfaceMesh& mesh) -> std::size_t {

@@ -13,8 +13,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace ricci {
 
@@ -354,8 +356,21 @@ std::array<int, 2> overlapsInFloats(const FlatMesh& mesh)
 	double step = 0.0;
 	FlatMesh stored = mesh;
 	stored.place = inFloats(std::move(stored.place), step);
-	const OverlapSearch search(stored, kTouchingSteps * step);
-	const Array<char> overlaps = search.overlapping();
+	Array<Triangle2> corners = stored.corners();
+	std::map<int, double> areas; // [chart]
+	for (const int f : corners.indices())
+		areas[stored.chart[f]] += doubledArea(corners[f]);
+	const auto isMirrored = [&](int f) { return areas[stored.chart[f]] < 0.0; };
+	bool hasMirrored = false;
+	for (const int f : corners.indices())
+		if (isMirrored(f)) {
+			hasMirrored = true;
+			std::swap(corners[f][1], corners[f][2]);
+		}
+	const double touching = kTouchingSteps * step;
+	const Array<char> overlaps = (hasMirrored ? OverlapSearch(std::move(corners), touching)
+											  : OverlapSearch(stored, touching))
+									 .overlapping();
 	int faces = 0;
 	std::set<int> charts;
 	for (const int f : overlaps.indices())
