@@ -59,7 +59,7 @@ class Batch(unittest.TestCase):
         environment = {**os.environ, "PYTHONPATH": PACKAGE + os.pathsep + self.hooks}
         return subprocess.Popen(
             [sys.executable, "-m", "ricciflow", self.meshes, self.out, *options],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", env=environment)
 
     def start_cluster(self):
         """Two workers in a process of their own; the scheduler's address."""
@@ -407,8 +407,30 @@ class Batch(unittest.TestCase):
         code, text = self.batch("--one-atlas")
         self.assertEqual(code, 1)
         self.assertIn("refused: ", text)
-        self.assertEqual({record["state"] for record in self.records().values()}, {"refused"})
+        self.assertEqual({record["mesh"]: record["state"] for record in self.records().values()},
+                         {"c.ply": "refused", **dict.fromkeys(names, "missing")})
         self.assertEqual([name for name in os.listdir(self.out) if name.endswith(".ply")], [])
+        with open(os.path.join(self.meshes, "bad.stl"), "w", encoding="utf-8") as target:
+            target.write("x")
+        self.assertEqual(self.batch("--one-atlas")[0], 1)
+        with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
+            for line in source:
+                name, state, reason = line.split("\t")
+                self.assertEqual(state, "unreadable" if name == "bad.stl" else "missing")
+                self.assertIn("bad.stl", reason)
+
+    def test_names_of_any_bytes(self):
+        self.write("a.ply", meshes.torus())
+        os.rename(os.path.join(self.meshes, "a.ply"),
+                  os.path.join(os.fsencode(self.meshes), b"m\xe4t.ply"))
+        with open(os.path.join(self.meshes, "b.obj"), "wb") as target:
+            target.write(b"mtllib f\xe4rbe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        for _ in range(2):
+            code, text = self.batch()
+            self.assertEqual(code, 0, text)
+            with open(os.path.join(self.out, "results.csv"), encoding="utf-8") as source:
+                self.assertEqual([row[:2] for row in csv.reader(source)][1:],
+                                 [["b.obj", "solved"], [r"m\udce4t.ply", "solved"]])
 
     def test_one_atlas_of_one_file(self):
         self.write("a.ply", meshes.torus())

@@ -297,10 +297,14 @@ def atlas(options, names, jobs):
             state = "unreadable" if isinstance(problem, OSError) else "refused"
             reason = " ".join(_batch.in_words(problem).split())
             print(f"{state}: {reason}", file=sys.stderr)
+            blamed = [job for job in jobs if os.path.basename(job["mesh"]) in reason]
             for job in jobs:
+                own = job in blamed or not blamed
                 _batch.clear(job["record"])
-                _batch.write_record(job["record"], {"mesh": job["name"], "state": state, "reason": reason,
-                                                    "fingerprint": job["fingerprint"], "files": []})
+                _batch.write_record(job["record"], {
+                    "mesh": job["name"], "state": state if own else "missing", "fingerprint": job["fingerprint"],
+                    "reason": reason if own else f"not run, because {blamed[0]['name']} cannot be used: move that "
+                                                 f"file away", "files": []})
             return 1
     record.update(seconds=time.monotonic() - started, results=results[0].results,
                   messages=[str(one.message) for one in said])

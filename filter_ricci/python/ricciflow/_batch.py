@@ -255,7 +255,8 @@ def summarize(out, names):
     records = [{"mesh": name, "state": "missing", **read_record(record_path(out, stem))}
                for name, stem in names.items()]
     keys = sorted({key for record in records for key in record.get("results", {})})
-    with open(os.path.join(out, "results.csv"), "w", encoding="utf-8", newline="") as target:
+    text = {"mode": "w", "encoding": "utf-8", "errors": "backslashreplace"}  # names may be of any bytes
+    with open(os.path.join(out, "results.csv"), newline="", **text) as target:
         table = csv.writer(target)
         table.writerow(["mesh", "state", "seconds", "messages", *keys])
         for record in records:
@@ -263,7 +264,7 @@ def summarize(out, names):
             table.writerow([record["mesh"], record["state"], record.get("seconds", ""),
                             " ".join(record.get("messages", ())),
                             *(results.get(key, "") for key in keys)])
-    with open(os.path.join(out, "failures.txt"), "w", encoding="utf-8") as target:
+    with open(os.path.join(out, "failures.txt"), **text) as target:
         for record in records:
             if record["state"] != "solved":
                 target.write(f"{record['mesh']}\t{record['state']}\t{record.get('reason', '')}\n")
