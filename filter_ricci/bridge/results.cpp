@@ -216,15 +216,20 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 		return valueOf<int>(par, id) == static_cast<int>(choice);
 	};
 	const double qc = resultOf<double>(results, "qc_area_mean");
+	const bool areGiven = filter == Euclidean && is("charts", ricci::Charts::AsGiven);
+	const std::string given = "Charts are kept as they were: other {charts} are new.";
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(
 			"This map is probably not usable: angles are distorted by " + ricci::numberText(qc, 3) +
 			" on average. " +
-			(!is("method", ricci::Method::IntrinsicFlips)
+			(areGiven ? given
+			 : !is("method", ricci::Method::IntrinsicFlips)
 				 ? "The method 'Intrinsic flips' avoids this."
-				 : "The output 'Common refinement' avoids this, and so does remeshing that removes "
-				   "sliver triangles ('Remeshing: Isotropic Explicit Remeshing')."));
+			 : is("output_triangulation", ricci::OutputTriangulation::CommonRefinement)
+				 ? "Seams that you choose may avoid this."
+				 : "The output 'Common refinement' mostly avoids this, and so does remeshing that "
+				   "removes sliver triangles ('Remeshing: Isotropic Explicit Remeshing')."));
 	for (const auto& [key, value, label] : results)
 		if (key == "texture_scale" && std::get<double>(value) < kCoarser)
 			lines.push_back(
@@ -247,24 +252,27 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	const double areas = resultOf<double>(results, "area_distortion_mean");
 	const double occupancy = resultOf<double>(results, "occupancy");
 	const int overlapping = resultOf<int>(results, "overlapping_faces");
-	if (overlapping > 0 && (is("target_curvature", ricci::TargetCurvature::Disk) ||
+	if (overlapping > 0 && (areGiven || is("target_curvature", ricci::TargetCurvature::Disk) ||
 							is("target_curvature", ricci::TargetCurvature::Rectangle)))
 		lines.push_back(
-			"This map is probably not usable: " + std::to_string(overlapping) +
-			" faces overlap. 'Disk' and 'Rectangle' give one chart, which is never cut: "
-			"'Automatic' cuts charts that overlap.");
+			"This map is probably not usable: " + std::to_string(overlapping) + " faces overlap. " +
+			(areGiven ? given
+					  : "'Disk' and 'Rectangle' give one chart, which is never cut: "
+						"'Automatic' cuts charts that overlap."));
 	if (areas > kDoubtfulAreas)
 		lines.push_back(
 			"This map is probably not usable: areas change by a factor of " +
 			ricci::numberText(areas, 3) + " on average. " +
-			(isAutomatic || is("target_curvature", 6)
+			(areGiven ? given
+			 : isAutomatic || is("target_curvature", 6)
 				 ? "{cone_distortion} 0.25 adds cones, which reduce this."
 				 : "The target 'Automatic' places cones, which reduce this."));
 	if (occupancy < kDoubtfulOccupancy && valueOf<double>(par, "texel_density") == 0.0)
 		lines.push_back(
 			"This map is probably not usable: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
-			(isAutomatic && is("charts", ricci::Charts::CutForPacking)
+			(areGiven ? given
+			 : isAutomatic && is("charts", ricci::Charts::CutForPacking)
 				 ? "Chosen seams ({seams}) divide it into charts that pack better."
 				 : "The target 'Automatic' with the charts 'Without overlap, cut for packing' "
 				   "divides "

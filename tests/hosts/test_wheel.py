@@ -10,6 +10,7 @@ import gc
 import glob
 import hashlib
 import inspect
+import math
 import multiprocessing
 import os
 import pickle
@@ -611,6 +612,19 @@ class Functions(unittest.TestCase):
             result = flatten(vertices, faces, padding=512)
         self.assertLess(result.padding_pixels, 512)
         self.assertGreaterEqual(result.uv.min(), result.padding_pixels / 2048 - 1e-6)
+
+    def test_doubts_about_islands_that_stay(self):
+        """What is wrong is said, and that no parameter of new charts mends it."""
+        vertices, faces = arrays(meshes.grid(100, 3, lambda s, t: (
+            math.cos(13 * s) * (1 + t), math.sin(13 * s) * (1 + t), 3 * s)))  # from above, two turns of it
+        for side in (1, -1):
+            with self.assertWarnsRegex(ricciflow.RicciWarning, "faces overlap. Charts are kept as they were"):
+                result = flatten(vertices, faces, uv=vertices[faces][..., :2] * [side, 1],
+                                 charts="As they are, only packed")
+            self.assertEqual(result.overlapping_faces, len(faces))
+            for message in result.messages:
+                if "usable" in message:
+                    self.assertIn("kept as they were", message)
 
     def test_doubts_are_warnings(self):
         """As warnings, and with the result."""

@@ -12,7 +12,8 @@
 
 namespace ricci {
 
-/// The largest curvature of a placed cone, 3 pi / 2 in radians: its angle is at least a right one.
+/// The largest curvature of a placed cone where the surface itself has no more, 3 pi / 2 in radians: its angle is at
+/// least a right one.
 constexpr double kMaxQuarterTurns = 3.0, kMaxConeCurvature = kMaxQuarterTurns * kQuarterTurn;
 
 /// The multipliers m that hold entries of a minimum k at given values: k - H m has them.

@@ -49,8 +49,9 @@ int minConeCount(const LinearFlow& flow, double total)
 	return static_cast<int>(std::ceil(total / kMaxConeCurvature));
 }
 
-ConeModel::ConeModel(LinearFlow& flow, double total, double energyFactor) :
-		m_flow(flow), m_total(total), m_energyFactor(energyFactor), m_isCone(flow.vertexCount(), 0)
+ConeModel::ConeModel(LinearFlow& flow, double total, double energyFactor, VertexVector ofSurface) :
+		m_flow(flow), m_total(total), m_energyFactor(energyFactor),
+		m_ofSurface(std::move(ofSurface)), m_isCone(flow.vertexCount(), 0)
 {
 	checkpoint();
 	const VertexVector none = VertexVector::Zero(m_flow.vertexCount());
@@ -248,17 +249,20 @@ void ConeModel::findMinimum()
 		return;
 	}
 	Eigen::VectorXd solution = unboundedMinimum();
-	const Eigen::VectorXd excess = solution.tail(size()).array() - kMaxConeCurvature;
+	Eigen::VectorXd most(size());
+	for (int i = 0; i < size(); ++i)
+		most[i] = maxCurvature(vertex(i));
+	const Eigen::VectorXd excess = solution.tail(size()) - most;
 	fit.multipliers = boundMultipliers(
 		m_now.inverse.bottomRightCorner(size(), size()), excess, std::move(fit.multipliers));
 	if (fit.multipliers.maxCoeff() > 0.0) {
 		solution -= m_now.inverse.rightCols(size()) * fit.multipliers;
 		for (int i = 0; i < size(); ++i)
 			if (fit.multipliers[i] > 0.0)
-				solution[i + border()] = kMaxConeCurvature;
+				solution[i + border()] = most[i];
 		solution += change(rightSide() - times(solution));
 	}
-	fit.minimum = Eigen::VectorXd(solution.tail(size()).cwiseMin(kMaxConeCurvature));
+	fit.minimum = Eigen::VectorXd(solution.tail(size()).cwiseMin(most));
 	fit.lowest = energyOf(fit.minimum);
 	fit.level = border() > 0 ? solution[0] : 0.0;
 }

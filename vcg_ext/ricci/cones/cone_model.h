@@ -40,7 +40,17 @@ public:
 	/// No cones yet.
 	/// \param total 2 pi chi, what the curvatures add up to where their sum is fixed
 	/// \param energyFactor see TargetRequest
-	ConeModel(LinearFlow& flow, double total, double energyFactor = 1.0);
+	/// \param ofSurface [vertex] curvature of the surface there, which a cone may keep; none: see maxCurvature()
+	ConeModel(
+		LinearFlow& flow, double total, double energyFactor = 1.0, VertexVector ofSurface = {});
+
+	/// That of a cone at \p v: where the surface itself has more than kMaxConeCurvature, as at the tip of a spire, as
+	/// much as it has.
+	double maxCurvature(Vertex v) const
+	{
+		return m_ofSurface.size() > 0 ? std::max(kMaxConeCurvature, m_ofSurface[v])
+									  : kMaxConeCurvature;
+	}
 
 	int size() const { return m_now.vertices.size(); }
 	Vertex vertex(int i) const { return m_now.vertices[i]; }
@@ -100,7 +110,7 @@ public:
 	void setRounding(ConeRounding rounding);
 
 	/// Puts the curvatures to their best values, with the sum fixed where it is and none above
-	/// kMaxConeCurvature, rounded as set. All have that if they are fewer than minSize().
+	/// maxCurvature(), rounded as set. All have kMaxConeCurvature if they are fewer than minSize().
 	void fit();
 
 	/// Moves cone \p i to the first of \p places with \p isLow(place, energy there), with the curvatures fitted.
@@ -221,6 +231,7 @@ private:
 
 	LinearFlow& m_flow;
 	double m_total, m_energyFactor;
+	VertexVector m_ofSurface;
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;

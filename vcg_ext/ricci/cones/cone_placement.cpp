@@ -283,6 +283,15 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 		SeamTree(sites, vertices).length());
 }
 
+/// [aggregate] what its root has.
+VertexVector at(const VertexArray<Vertex>& roots, const VertexVector& values)
+{
+	VertexVector result(roots.size());
+	for (const Vertex c : roots.indices())
+		result[c] = values[roots[c]];
+	return result;
+}
+
 /// The search for a number of cones or a spread on aggregates, and then on the surface itself as far as its own
 /// spread asks for it.
 void searchFromCoarse(
@@ -291,7 +300,7 @@ void searchFromCoarse(
 	VertexArray<Vertex> roots;
 	LinearFlow coarse = onAggregates(flow.system(roots), kMaxAggregates, roots);
 	const ConeSites coarseSites(sites, roots);
-	ConeModel coarseModel(coarse, model.total());
+	ConeModel coarseModel(coarse, model.total(), 1.0, at(roots, flow.curvature()));
 	TargetRequest coarseRequest = request;
 	const bool isCounted = request.goal.kind == ConeGoal::Count;
 	model.setRounding(request.rounding);
@@ -323,7 +332,8 @@ PlacedCones placeOnSurface(
 	const ConeSites& sites,
 	std::vector<Vertex> known)
 {
-	ConeModel model(flow, surface.topology.type.totalCurvature(), request.energyFactor);
+	ConeModel model(
+		flow, surface.topology.type.totalCurvature(), request.energyFactor, flow.curvature());
 	checkCount(request, model.minSize(), sites);
 	if (!known.empty())
 		setCones(std::move(known), model);
@@ -360,7 +370,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 		[&] {
 			const int most = std::min(kMaxAggregates, flow.vertexCount() / 2);
 			coarse.emplace(onAggregates(std::move(whole), most, roots));
-			found.emplace(*coarse, total, request.energyFactor);
+			found.emplace(*coarse, total, request.energyFactor, at(roots, flow.curvature()));
 		});
 	besides(
 		defaultThreads(),
@@ -390,6 +400,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 		return result;
 	};
 	const Eigen::VectorXd start = model.curvatures();
+	const Eigen::VectorXd most = start.cwiseMax(kMaxConeCurvature);
 	Eigen::VectorXd k = start;
 	VertexVector u;
 	const auto fit = [&] {
@@ -410,9 +421,9 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const Target
 		// As far as no bound is passed: the energy falls all the way.
 		double share = 1.0;
 		for (Eigen::Index i = 0; i < k.size(); ++i)
-			if (k[i] > kMaxConeCurvature)
-				share = std::min(share, (kMaxConeCurvature - start[i]) / (k[i] - start[i]));
-		k = (start + share * (k - start)).cwiseMin(kMaxConeCurvature);
+			if (k[i] > most[i])
+				share = std::min(share, (most[i] - start[i]) / (k[i] - start[i]));
+		k = (start + share * (k - start)).cwiseMin(most);
 		u = flow.factor(spread(k));
 	};
 	double seams = 0.0;

@@ -67,7 +67,7 @@ struct TargetRequest : VertexInput
 struct PlacedCones
 {
 	std::vector<Vertex> vertices;   ///< increasing
-	std::vector<double> curvatures; ///< radians, at most kMaxConeCurvature, never 0
+	std::vector<double> curvatures; ///< radians, at most ConeModel::maxCurvature(), never 0
 	/// Standard deviation by area of 2 u, the logarithm of the change of areas
 	/// (Report::areaDistortionSpread), as the linear problem predicts it.
 	double distortion = 0.0;

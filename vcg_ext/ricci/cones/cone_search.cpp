@@ -70,7 +70,8 @@ double level(const ConeModel& model, const VertexVector& phi, Vertex freed)
 	double sum = 0.0;
 	int count = 0;
 	for (int i = 0; i < model.size(); ++i)
-		if (model.curvature(i) < kMaxConeCurvature - 1e-9 && model.vertex(i) != freed) {
+		if (model.curvature(i) < model.maxCurvature(model.vertex(i)) - 1e-9 &&
+			model.vertex(i) != freed) {
 			sum += phi[model.vertex(i)];
 			++count;
 		}

@@ -31,6 +31,9 @@ constexpr double kShrink = 0.5;
 /// Of a length.
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
+/// So many flips for each edge from which on rounding may be what keeps them from ending.
+constexpr std::int64_t kManyFlips = 100;
+
 /// I - 1 on each edge, between \p lowest and \p highest.
 EdgeArray<double> distancesLessOne(
 	const Triangulation& t,
@@ -58,7 +61,10 @@ Point2 apexOver(const IntrinsicMesh& mesh, Halfedge h)
 /// Whether e passes the weighted Delaunay test for circles of these radii (none: the plain test).
 /// The radical axes of the two triangles cross the perpendicular of the edge at heights that add up
 /// to the length of the dual edge: Delaunay where that is not negative.
-bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edge e)
+/// \param areRounded whether what the lengths may be off by is allowed for, too: that moves the apex by their quotient
+/// with the height as much
+bool isDelaunay(
+	const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edge e, bool areRounded)
 {
 	const Triangulation& t = mesh.triangulation;
 	if (!t.isFlippable(e))
@@ -84,9 +90,9 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 			return !(plus < minus);
 		const double centre = (plus - minus) / (2 * height);
 		sum += centre;
-		// Of the last operations; and of the lengths, which moves the apex by their quotient with the height as much.
-		error += kManyRoundings * (plus + std::abs(minus)) / (2 * height) +
-				 kRounding * (l * l + plus) / height * (1.0 + std::abs(centre) / height);
+		error += kManyRoundings * (plus + std::abs(minus)) / (2 * height);
+		if (areRounded)
+			error += kRounding * (l * l + plus) / height * (1.0 + std::abs(centre) / height);
 	}
 	return sum >= -error;
 }
@@ -103,7 +109,10 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e)
 void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
 {
 	Triangulation& t = mesh.triangulation;
-	const auto isGood = [&](Edge e) { return isDelaunay(mesh, radii, e); };
+	std::int64_t flips = 0;
+	const auto isGood = [&](Edge e) {
+		return isDelaunay(mesh, radii, e, flips > kManyFlips * t.edgeCount());
+	};
 	const auto flip = [&](Edge e) {
 		mesh.lengths[e] = flippedLength(mesh, e);
 		t.flip(e);
@@ -111,7 +120,6 @@ void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::ve
 	};
 	DelaunayQueue queue;
 	queue.queued.assign(t.edgeCount(), 0);
-	std::int64_t flips = 0;
 	for (const Edge e : t.edges())
 		queue.flipFrom(e, t, flips, isGood, flip);
 }
