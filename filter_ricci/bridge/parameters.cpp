@@ -71,7 +71,7 @@ layers = None | Extra layers | None; Flat mesh; Sphere; Flat mesh and sphere
 - seam_hiding = 0 | Seams: prefer concave areas | float
 	From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as ten times longer).
 - texel_density = 0 | Texels per unit of length | float
-	Lay charts at this density into UDIM tiles of 'Texture size', as many as they need; larger charts are cut. 0: one
+	Lay charts at this density into UDIM tiles of 'Texture size', up to 100; larger charts are cut. 0: one
 	square.
 - chart_rotation = Any | Chart rotation | None; Right angles; Any
 	<b>None</b>: charts do not rotate, and are not cut for packing. <b>Right angles</b>: straight ones upright, others by 90

@@ -919,6 +919,17 @@ class NothingIsLost(Folder):
         mesh.save(self.folder / "out.obj", by_vertex(mesh))
         self.assertEqual(kept_lines((self.folder / "out.obj").read_bytes()), kept_lines(text))
 
+    def test_too_few_corners_in_another_format(self):
+        """The faces that stay have their corners, polygons too."""
+        text = (b"ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+                b"element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n2 0 4\n4 0 1 2 3\n1 3\n4 1 4 5 2\n")
+        mesh = files.read(self.file("in.ply", text))
+        mesh.save(self.folder / "out.obj", by_vertex(mesh))
+        saved = files.read(self.folder / "out.obj")
+        self.assertEqual(saved.starts.tolist(), [0, 4, 8])
+        self.assertEqual(saved.faces.tolist(), mesh.faces.tolist())
+
     def test_beyond_the_end(self):
         cases = {
             "a.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n",

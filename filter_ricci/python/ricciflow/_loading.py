@@ -152,6 +152,8 @@ def from_path(path):
             return _of_file(files.read(path))
         except files.FileError as problem:
             raise OSError(str(problem)) from None
+    if not os.path.splitext(path)[1]:
+        raise OSError(f"{path} has no ending that tells its format, such as .obj or .ply: give it one.")
     if importlib.util.find_spec("pymeshlab") is not None:
         from . import pymeshlab as host
         documents = host.load(path)  # which its mesh does not keep alive

@@ -259,6 +259,19 @@ class PlainMesh(MeshFile):
         return self.normals
 
 
+def _with_area(polygons):
+    """MeshFile._polygons without those of less than 3 corners, which no triangle is of."""
+    if polygons is None:
+        return None
+    starts, corners, polygon = polygons
+    count = np.diff(starts)
+    kept = count >= 3
+    after = np.concatenate([[0], np.cumsum(count[kept])])
+    number = np.cumsum(kept) - 1
+    shift = after[number[polygon]] - starts[polygon]
+    return after, corners + shift[:, None], number[polygon]
+
+
 def placed(mesh, uv, refined, shows_picture):
     """The mesh as it lies in its scene, as PlainMesh; its uv; and sentences about what it does not have."""
     plain, messages = PlainMesh(mesh.path), []
@@ -266,6 +279,8 @@ def placed(mesh, uv, refined, shows_picture):
     if mesh.pictures and not shows_picture:
         messages.append(f'{counted(len(mesh.pictures), "picture")} of the materials: not written in another '
                         'format')
+    if mesh.pictures and shows_picture and mesh.material_colours is not None and (mesh.material_colours != 1).any():
+        messages.append('tints of the materials, which multiply the old pictures: not written in another format')
     vertices, faces, origin = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     if refined is not None:
         faces, points, _ = _numbered(mesh, refined)
@@ -280,7 +295,7 @@ def placed(mesh, uv, refined, shows_picture):
         colours, normals = at_corners(colours), at_corners(normals)
     stays = all(len(p.matrices) == 1 and (p.matrices[0] == np.eye(4)).all() for p in mesh.parts)
     if refined is None and stays:
-        plain.vertices, plain.faces, plain._polygons = vertices, faces, mesh._polygons
+        plain.vertices, plain.faces, plain._polygons = vertices, faces, _with_area(mesh._polygons)
         plain.diagonals, plain.colours, plain.normals = mesh.diagonals, colours, normals
     else:
         lists = [], [], [], [], []
