@@ -324,9 +324,12 @@ class Batch(unittest.TestCase):
     def test_sentences(self):
         """What cannot be done is said in one line, without a traceback."""
         self.write("hill.ply", meshes.hill())
-        path = os.path.join(self.meshes, "hill.ply")
+        path, bare = os.path.join(self.meshes, "hill.ply"), os.path.join(self.meshes, "hill")
+        with open(bare, "w", encoding="utf-8") as target:
+            target.write("v 0 0 0\n")
         for mesh, out, options, code, pattern in (
                 ("nothing", "out", (), 2, "There is no file or folder"),
+                (bare, "out.obj", (), 1, "hill has no ending that tells its format"),
                 (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is not a whole number"),
                 (self.meshes, path, (), 1, "hill.ply: File exists"),
                 (path, "out.stl", (), 2, "OUT must end in .obj or .ply"),

@@ -537,8 +537,8 @@ def flatten(
         remeshing, whose seams differ by quarter turns.
     seam_hiding: From 0 (the seams are as short as possible) to 1 (an edge on a ridge counts as
         ten times longer).
-    texel_density: Lay charts at this density into UDIM tiles of 'Texture size', as many as they
-        need; larger charts are cut. 0: one square.
+    texel_density: Lay charts at this density into UDIM tiles of 'Texture size', up to 100;
+        larger charts are cut. 0: one square.
     chart_rotation: None: charts do not rotate, and are not cut for packing. Right angles:
         straight ones upright, others by 90 degrees.
     sharp_angle: The seams 'Sharp edges' are those at which the surface bends by more than this.
