@@ -360,6 +360,7 @@ std::array<int, 2> overlapsInFloats(const FlatMesh& mesh)
 	std::map<int, double> areas; // [chart]
 	for (const int f : corners.indices())
 		areas[stored.chart[f]] += doubledArea(corners[f]);
+	areas[-1] = 0.0; // faces without area
 	const auto isMirrored = [&](int f) { return areas[stored.chart[f]] < 0.0; };
 	bool hasMirrored = false;
 	for (const int f : corners.indices())
