@@ -5,6 +5,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/metric/area.h>
 #include <ricci/metric/conformal_flip.h>
 
 #include <gtest/gtest.h>
