@@ -144,8 +144,7 @@ std::string inWords(const ricci::InvalidOption& e)
 			   "choose other {charts}.";
 	case Error::MapWithoutArea:
 		return "The texture coordinates take every face to a line or a point, so there are no "
-			   "charts to pack: choose "
-			   "other {charts}.";
+			   "charts to pack: choose other {charts}.";
 	case Error::CoverTooLarge:
 		return "{universal_cover}: " + numberText(e.value, 10) + " rings would need more than " +
 			   count + " faces. Ask for fewer rings, or simplify the mesh.";

@@ -217,7 +217,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const Parame
 	};
 	const double qc = resultOf<double>(results, "qc_area_mean");
 	const bool areGiven = filter == Euclidean && is("charts", ricci::Charts::AsGiven);
-	const std::string given = "Charts are kept as they were: other {charts} are new.";
+	const std::string given = "Charts are kept as they were: choose other {charts} for new ones.";
 	std::vector<std::string> lines;
 	if (qc > kDoubtfulAngles)
 		lines.push_back(

@@ -413,14 +413,14 @@ class Batch(unittest.TestCase):
         self.assertEqual({record["mesh"]: record["state"] for record in self.records().values()},
                          {"c.ply": "refused", **dict.fromkeys(names, "missing")})
         self.assertEqual([name for name in os.listdir(self.out) if name.endswith(".ply")], [])
-        with open(os.path.join(self.meshes, "bad.stl"), "w", encoding="utf-8") as target:
-            target.write("x")
+        with open(os.path.join(self.meshes, "ba.ply"), "w", encoding="utf-8") as target:
+            target.write("x")  # another name ends like its own
         self.assertEqual(self.batch("--one-atlas")[0], 1)
         with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
             for line in source:
                 name, state, reason = line.split("\t")
-                self.assertEqual(state, "unreadable" if name == "bad.stl" else "missing")
-                self.assertIn("bad.stl", reason)
+                self.assertEqual(state, "unreadable" if name == "ba.ply" else "missing")
+                self.assertIn("ba.ply", reason)
 
     def test_names_of_any_bytes(self):
         self.write("a.ply", meshes.torus())

@@ -297,7 +297,8 @@ def atlas(options, names, jobs):
             state = "unreadable" if isinstance(problem, OSError) else "refused"
             reason = " ".join(_batch.in_words(problem).split())
             print(f"{state}: {reason}", file=sys.stderr)
-            blamed = [job for job in jobs if os.path.basename(job["mesh"]) in reason]
+            blamed = [job for job in jobs if re.search(
+                rf"(?<![\w.-]){re.escape(os.path.basename(job['mesh']))}(?![\w-])", reason)]
             for job in jobs:
                 own = job in blamed or not blamed
                 _batch.clear(job["record"])
